@@ -1,0 +1,10 @@
+# Warnings are errors in our code. -ffp-contract=off and no -ffast-math: the same input gives the same bytes on every
+# machine, whatever it can do beyond the x86-64 baseline (faster code is chosen at run time, in the layers that need it).
+add_library(depthmocap_flags INTERFACE)
+target_compile_options(depthmocap_flags INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
+
+option(DEPTHMOCAP_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+if(DEPTHMOCAP_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libtracker/classify/classified_pixels.h"
+#include "libtracker/core/image.h"
+
+namespace depthmocap {
+
+// Random decision forest over depth-difference features (Shotton 2011):
+//   f(x; u, v) = d(x + u/d(x)) - d(x + v/d(x)),  left where f < threshold.
+// Offsets u, v are [px * m] for a focal length of kReferenceFocal_px; inference scales them by the camera's fx, so one
+// forest serves every camera. A probe outside the actor (background, no measurement, outside the image) reads
+// kBackgroundDepth_m.
+inline constexpr float kReferenceFocal_px = 525.0F;
+inline constexpr float kBackgroundDepth_m = 10.0F;
+
+struct ForestNode {
+  std::array<std::int16_t, 2> u{};  // [px * m] x, y
+  std::array<std::int16_t, 2> v{};
+  float threshold_m = 0;    // [m]
+  std::int32_t child = 0;   // > 0: index of the left child, the right one follows it; <= 0: -index of the leaf
+};
+
+struct ForestTree {
+  std::vector<ForestNode> nodes;                                 // nodes[0] is the root
+  std::vector<std::array<std::uint8_t, kPartCount>> leaves;      // distribution * 255
+};
+
+struct Forest {
+  std::vector<ForestTree> trees;
+  std::string origin;  // one line: data, command, date
+};
+
+// Throw Error (missing, not a forest, truncated, checksum, version, an index out of range, a cycle).
+Forest loadForest(const std::filesystem::path& path);
+void saveForest(const Forest& forest, const std::filesystem::path& path);
+
+struct ClassifyConfig {
+  int stride = 2;   // [px] (>= 1) classify every stride-th pixel in x and y
+  int threads = 1;  // (>= 1)
+};
+
+// Classifies the pixels of the actor (mask != 0). `focal_px` is the camera's fx. The same result for any number of threads.
+// Reuses the memory of `result`.
+void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
+              const ClassifyConfig& config, ClassifiedPixels& result);
+
+// The most probable part of each pixel of the mask; pixels between classified ones take the nearest one's.
+void labelImage(const ClassifiedPixels& pixels, const MaskImage& mask, PartImage& labels);
+
+}  // namespace depthmocap

@@ -1,0 +1,53 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "libtracker/core/camera.h"
+#include "libtracker/core/depth_frame.h"
+
+namespace depthmocap {
+
+// What recording.json says (../contract: "Recording: a folder"). Frames are handed out undistorted and in metres.
+struct RecordingInfo {
+  CameraModel camera;
+  double fps = 30.0;              // [1/s] (> 0)
+  double depth_unit_m = 0.001;    // [m] per stored step (> 0)
+  std::string camera_name;        // "kinect1", "kinect2", ...
+  std::string note;
+  std::string extra_json = "{}";  // unknown keys, kept when the recording is rewritten
+};
+
+// A recording that is read frame by frame: depthmocap folder or TUM RGB-D folder. Not thread-safe.
+class RecordingReader {
+ public:
+  virtual ~RecordingReader() = default;
+  [[nodiscard]] virtual const RecordingInfo& info() const = 0;
+  [[nodiscard]] virtual std::size_t frameCount() const = 0;
+  // Reads frame i in [0, frameCount()) into `frame`, reusing its memory. A file that cannot be read or does not fit the
+  // recording (missing, truncated, 8-bit, wrong size) throws Error naming the file and the reason.
+  virtual void read(std::size_t i, DepthFrame& frame) = 0;
+};
+
+// Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN, zero
+// or negative, no frame at all, times out of order).
+std::unique_ptr<RecordingReader> openRecording(const std::filesystem::path& path);
+
+// Writes a recording folder; refuses to overwrite one. Each PNG is written whole or not at all; frames.csv grows with each
+// frame, so that a recording cut short is readable up to its last frame.
+class RecordingWriter {
+ public:
+  RecordingWriter(const std::filesystem::path& path, const RecordingInfo& info);
+  ~RecordingWriter();
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+  // Depth is rounded to info.depth_unit_m; farther than 65535 units becomes 0.
+  void write(const DepthFrame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace depthmocap

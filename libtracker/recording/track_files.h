@@ -1,0 +1,62 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libtracker/core/joints.h"
+#include "libtracker/core/track_state.h"
+#include "libtracker/skeleton/dof.h"
+
+namespace depthmocap {
+
+// One row of a joints file: joint centres in the camera frame [m] with confidence in [0, 1].
+// A lost row has no positions (all zero here, empty in the file).
+struct JointsRow {
+  std::int64_t frame = 0;
+  double time_s = 0;
+  TrackState state = TrackState::Lost;
+  JointPositions p_camera = JointPositions::Zero();
+  Eigen::Matrix<double, kJointCount, 1> confidence = Eigen::Matrix<double, kJointCount, 1>::Zero();
+};
+
+// One row of a pose file: q in the world frame named by the file's first comment line.
+struct PoseRow {
+  std::int64_t frame = 0;
+  double time_s = 0;
+  Pose q = Pose::Zero();
+};
+
+std::vector<JointsRow> readJointsFile(const std::filesystem::path& path);
+std::vector<PoseRow> readPoseFile(const std::filesystem::path& path);
+
+// Row by row into a temporary file beside `path`; finish() renames it into place, the destructor without finish() too if any
+// row was written, so that what was tracked before a failure is kept.
+class JointsWriter {
+ public:
+  explicit JointsWriter(const std::filesystem::path& path);
+  ~JointsWriter();
+  void write(const JointsRow& row);
+  void finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// A lost frame writes no row; frame numbers say which are missing.
+class PoseWriter {
+ public:
+  explicit PoseWriter(const std::filesystem::path& path);
+  ~PoseWriter();
+  void write(const PoseRow& row);
+  void finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace depthmocap
