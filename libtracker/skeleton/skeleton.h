@@ -73,7 +73,7 @@ inline constexpr std::array<BoneDofs, kBoneCount> kBoneDofs = {{
     {BoneRotation::SwingXY, kLfootRx, 2},
 }};
 
-// Sizes of a body [m], joint centre to joint centre, left and right equal; the paper's s. Defaults: an adult of 1.75 m,
+// Sizes of a body [m], joint centre to joint centre, left and right equal; the paper's s. Defaults: an adult of 1.77 m,
 // proportions after Drillis and Contini (1966) and de Leva (1996).
 struct BoneLengths {
   double upper_arm = 0.290;       // shoulder to elbow
