@@ -14,8 +14,8 @@ TEST(BoneLengths, AverageBodyHasTheStatureAskedFor) {
   }
 }
 
-TEST(BoneLengths, DefaultIsAnAdultOfAboutOneMetreSeventyFive) {
-  EXPECT_NEAR(statureOf(BoneLengths{}), 1.75, 0.02);
+TEST(BoneLengths, DefaultStatureIsAsDocumented) {
+  EXPECT_NEAR(statureOf(BoneLengths{}), 1.77, 0.005);
 }
 
 TEST(BoneLengths, NamesAndFieldsAgreeInNumberAndScale) {
