@@ -9,25 +9,26 @@
 
 namespace depthmocap {
 
-// Parameters of the search distance, equation (3).
+// Parameters of the search distance, equation (3), and of the index that proposes candidates for it.
 struct PoseSearchConfig {
-  double alpha = 0.75;      // weight of the marker distance
-  double beta = 0.25;       // weight of the change of pose
-  double sigma_m = 0.05;    // [m] of the Lorentzian
-  int candidates = 512;     // [poses] proposed by the FLANN index for the exact distance (>= neighbours)
-  int checks = 1024;        // [leaves] FLANN looks at
-  int trees = 4;            // of the randomised kd-forest
-  std::uint32_t seed = 1;   // of the kd-forest
-  void validate() const;    // throws Error naming field, value and rule
+  double alpha = 0.75;             // (>= 0) weight of the marker distance
+  double beta = 0.25;              // (>= 0) weight of the change of pose
+  double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
+  bool upright_alignment = false;  // R(a_n, a~) turns about the vertical only, beyond the paper; else any rotation
+  int candidates = 512;      // [poses] (>= 1) proposed by the FLANN index for the exact distance, all headings together
+  int features = 12;         // (1 .. 30) principal components of the markers that the index holds
+  double index_error = 0.0;  // (>= 0) FLANN's eps: the index may miss a candidate by this share of its distance
+  void validate() const;     // throws Error naming field, value and rule
 };
 
 // What is searched for.
 struct PoseQuery {
-  MarkerSet markers;              // world frame (y up)
-  bool has_history = false;       // whether the two poses before are known
-  Pose q_prev = Pose::Zero();     // q_-1
-  Pose q_prev2 = Pose::Zero();    // q_-2
-  double heading = 0;             // [rad] rough heading of the actor, used where has_history; else tried all around
+  MarkerSet markers;            // world frame (y up)
+  bool has_history = false;     // whether the two poses before are known
+  Pose q_prev = Pose::Zero();   // q_-1
+  Pose q_prev2 = Pose::Zero();  // q_-2
+  double heading = 0;           // [rad] rough heading of the actor, used where has_history; else found from the markers
+  double scale = 1.0;           // (> 0) size of the actor over the size of the search's skeleton
 };
 
 struct PoseNeighbour {
@@ -35,16 +36,32 @@ struct PoseNeighbour {
   double distance = 0;      // equation (3)
 };
 
-// Finds the nearest database poses to a set of markers. The database's markers a_n are computed once for a skeleton and a
-// marker model. Thread-compatible; search() does not allocate after its first calls.
+// Finds the nearest database poses to a set of markers.
+//
+// The distance (3) is confidence-weighted and summed over the seen markers, as the paper sums: with c_i the confidences
+// and R, t the rigid motion that best aligns the seen markers (c_i-weighted least squares),
+//   d = alpha * sum_i c_i rho(|a_n,i - R a~_i - t|) + beta * || q_n - 2 q_-1 + q_-2 ||^2
+// where the pose term runs over kShapeDofs (neither place nor heading) and is left out without history. Distances of
+// one query compare; those of queries with other markers do not.
+//
+// Candidates come from an exact FLANN kd-tree over the first principal components of the database's markers (root at
+// the origin, heading zero). The query's components are the posterior mean of a Gaussian with the database's
+// covariance, given the seen markers and an unknown translation; so markers that are missing are filled in by
+// regression. Several headings are tried: about the rough heading with history, about the left-right axes of shoulders,
+// waist and legs without, all around without those.
+//
+// Thread-compatible. Our own code does not allocate after the first search; FLANN allocates a vector of `features`
+// floats.
 class PoseSearch {
  public:
+  // Computes the database's markers a_n for this skeleton. The database must not be empty and must outlive the search.
   PoseSearch(const PoseDatabase& database, const Skeleton& skeleton, const MarkerModel& markers,
              const PoseSearchConfig& config);
   ~PoseSearch();
   PoseSearch(PoseSearch&&) noexcept;
 
-  // The `count` nearest poses, nearest first, ties by index: FLANN candidates ordered by the exact distance (3).
+  // The `count` nearest poses, nearest first, ties by index: FLANN candidates ordered by the exact distance (3). Fewer
+  // if fewer are proposed. With fewer than 3 seen markers only the pose term orders candidates well.
   void search(const PoseQuery& query, int count, std::vector<PoseNeighbour>& neighbours);
   // The same over all poses: the reference that search() is measured against.
   void searchExhaustive(const PoseQuery& query, int count, std::vector<PoseNeighbour>& neighbours);

@@ -1,28 +1,18 @@
 #pragma once
-#include <Eigen/Core>
 #include <vector>
 
-#include "libtracker/posedb/pose_database.h"
-#include "libtracker/posedb/pose_search.h"
-#include "libtracker/skeleton/dof.h"
+#include "libtracker/skeleton/local_prior.h"
 
 namespace depthmocap {
 
-inline constexpr int kMaxPriorDims = 7;  // the paper's bound on B
+inline constexpr int kMaxPriorNeighbours = 50;  // the paper's bound on K
 
-// Local linear model (4): q = mean + basis * phi, over the DoFs that do not depend on where the actor stands (root
-// translation and heading have zero rows and never enter the prior).
-struct LocalPrior {
-  Pose mean = Pose::Zero();
-  Eigen::Matrix<double, kDofCount, kMaxPriorDims> basis = Eigen::Matrix<double, kDofCount, kMaxPriorDims>::Zero();
-  int dims = 0;        // B: used columns of basis (orthonormal)
-  int neighbours = 0;  // K
-};
-
+// Which local linear models (4) a frame may choose from.
 struct PriorConfig {
-  std::vector<int> neighbours = {15, 30, 50};  // K to choose from, ascending (paper: <= 50)
-  std::vector<int> dims = {3, 5, 7};           // B to choose from, ascending (paper: <= 7)
-  void validate() const;
+  std::vector<int> neighbours = {15, 30, 50};  // [poses] (3 .. 50, ascending) K
+  std::vector<int> dims = {3, 5, 7};           // (1 .. 7, ascending) B
+  int held_out = 8;       // [poses] (1 .. smallest K) nearest poses left out in turn to choose K and B
+  void validate() const;  // throws Error naming field, value and rule
 };
 
 }  // namespace depthmocap

@@ -1,0 +1,65 @@
+#pragma once
+#include <memory>
+
+#include "libtracker/core/marker_set.h"
+#include "libtracker/skeleton/local_prior.h"
+#include "libtracker/skeleton/marker_model.h"
+#include "libtracker/skeleton/skeleton.h"
+
+namespace depthmocap {
+
+// Weights and limits of the MAP solve, equation (5). Energies mix m^2 and rad^2 as the paper does.
+struct MapConfig {
+  double lambda_prior = 0.2;       // (>= 0) lambda1
+  double lambda_marker = 5.0;      // (> 0) lambda2
+  double lambda_smooth = 1.0;      // (>= 0) lambda3
+  double lambda_limit = 10.0;      // (>= 0) joint limits, beyond the paper; 0 = none
+  double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
+  int max_iterations = 20;         // (>= 1) a guard: the mean is about 5
+  double energy_tolerance = 1e-5;  // (> 0) stop where one step changes half the energy by less
+  void validate() const;           // throws Error naming field, value and rule
+};
+
+// One frame's problem. The references must outlive solve().
+struct MapInput {
+  const Skeleton& skeleton;
+  const MarkerModel& markers;
+  const MarkerSet& markers_world;     // what was seen [m], y up
+  const LocalPrior* prior = nullptr;  // nullptr: no prior term
+  // The poses before, in the world; both: constant velocity is expected; q_prev alone: no motion; none: no smooth term.
+  const Pose* q_prev = nullptr;
+  const Pose* q_prev2 = nullptr;
+  double time_ratio = 1.0;  // (> 0) time since q_prev over the time between q_prev2 and q_prev
+};
+
+// What the solve found. e_*: the terms of (5) without their lambda, at the result.
+struct MapSummary {
+  double energy = 0;        // lambda-weighted sum of all terms
+  double e_marker = 0;      // confidence-weighted
+  double e_prior = 0;       // [rad^2]
+  double e_smooth = 0;      // [m^2 + rad^2]
+  double e_limit = 0;       // [rad^2]
+  double rms_marker_m = 0;  // [m] confidence-weighted distance of the seen markers; 0 if none
+  int iterations = 0;       // Levenberg-Marquardt steps tried
+  bool converged = false;   // false: max_iterations came first
+};
+
+// Minimises equation (5) by Levenberg-Marquardt (Ceres' TinySolver) with analytic Jacobians. Thread-compatible; solve()
+// does not allocate.
+class MapSolver {
+ public:
+  explicit MapSolver(const MapConfig& config);  // throws as MapConfig::validate
+  ~MapSolver();
+  MapSolver(MapSolver&&) noexcept;
+
+  // q: where to start, then the result; world frame, heading in (-pi, pi].
+  MapSummary solve(const MapInput& input, Pose& q);
+  // The same minimum by the general ceres::Solve: slow, the reference that solve() is measured against.
+  MapSummary solveReference(const MapInput& input, Pose& q) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace depthmocap
