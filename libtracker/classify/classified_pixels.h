@@ -1,9 +1,9 @@
 #pragma once
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "libtracker/classify/actor_depth.h"
 #include "libtracker/core/parts.h"
 
 namespace depthmocap {
@@ -11,13 +11,14 @@ namespace depthmocap {
 // The classifier's answer for every classified pixel of the actor, in row order.
 struct ClassifiedPixels {
   struct Pixel {
-    std::int16_t x = 0;  // [px]
-    std::int16_t y = 0;  // [px]
-    float depth_m = 0;   // [m]
+    std::int16_t x = 0;                           // [px]
+    std::int16_t y = 0;                           // [px]
+    float depth_m = 0;                            // [m]
     std::array<float, kPartCount> probability{};  // over the 15 parts, sums to 1
   };
   int stride = 1;  // [px] every stride-th pixel in x and y was classified
   std::vector<Pixel> pixels;
+  ActorDepth actor;  // working memory of classify(): what the features were measured on
 };
 
 }  // namespace depthmocap

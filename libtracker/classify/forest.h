@@ -21,13 +21,13 @@ inline constexpr float kBackgroundDepth_m = 10.0F;
 struct ForestNode {
   std::array<std::int16_t, 2> u{};  // [px * m] x, y
   std::array<std::int16_t, 2> v{};
-  float threshold_m = 0;    // [m]
-  std::int32_t child = 0;   // > 0: index of the left child, the right one follows it; <= 0: -index of the leaf
+  float threshold_m = 0;   // [m] a whole number of millimetres
+  std::int32_t child = 0;  // > 0: index of the left child, the right one follows it; <= 0: -index of the leaf
 };
 
 struct ForestTree {
-  std::vector<ForestNode> nodes;                                 // nodes[0] is the root
-  std::vector<std::array<std::uint8_t, kPartCount>> leaves;      // distribution * 255
+  std::vector<ForestNode> nodes;                             // nodes[0] is the root
+  std::vector<std::array<std::uint8_t, kPartCount>> leaves;  // distribution * 255
 };
 
 struct Forest {
@@ -35,19 +35,37 @@ struct Forest {
   std::string origin;  // one line: data, command, date
 };
 
-// Throw Error (missing, not a forest, truncated, checksum, version, an index out of range, a cycle).
+// Throws std::logic_error where the forest is not one: no tree, an index out of range, a node that is not reached
+// exactly once from its root (so no cycle), a leaf without any probability.
+void checkForest(const Forest& forest);
+
+// loadForest throws Error (missing, not a forest, truncated, checksum, version, counts that do not fit together); no
+// file makes it allocate more than its size justifies. saveForest writes the file whole or not at all; it numbers the
+// nodes of each tree breadth-first and rounds thresholds to millimetres. The format is described in forest_file.cpp.
 Forest loadForest(const std::filesystem::path& path);
 void saveForest(const Forest& forest, const std::filesystem::path& path);
 
+// Nodes on the longest way from the root to a leaf, less one: 0 for a tree that is a single leaf.
+int treeDepth(const ForestTree& tree);
+
 struct ClassifyConfig {
-  int stride = 2;   // [px] (>= 1) classify every stride-th pixel in x and y
-  int threads = 1;  // (>= 1)
+  int stride = 2;    // [px] (>= 1) classify every stride-th pixel in x and y
+  int threads = 1;   // (>= 1)
+  bool simd = true;  // use the processor's vector instructions where it has them; the result is the same
 };
 
-// Classifies the pixels of the actor (mask != 0). `focal_px` is the camera's fx. The same result for any number of threads.
-// Reuses the memory of `result`.
+// Classifies the pixels of the actor (mask != 0, with a measurement). `depth` and `mask` have the same size, `focal_px`
+// is the camera's fx (1 .. 1e5). The same result for any number of threads. Reuses the memory of `result`: no
+// allocation once it has seen the largest actor.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifiedPixels& result);
+
+// The definition that classify() is tested against: the same result pixel by pixel from the plain images, slowly.
+void classifyReference(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
+                       int stride, ClassifiedPixels& result);
+
+// The most probable part (index 0 .. 14, the first of equals) of a classified pixel.
+int mostProbablePart(const ClassifiedPixels::Pixel& pixel);
 
 // The most probable part of each pixel of the mask; pixels between classified ones take the nearest one's.
 void labelImage(const ClassifiedPixels& pixels, const MaskImage& mask, PartImage& labels);

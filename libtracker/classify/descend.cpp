@@ -1,0 +1,123 @@
+#include "libtracker/classify/descend.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include <cstddef>
+
+namespace depthmocap {
+namespace {
+
+bool goesRight(const ForestNode& node, const ActorDepth& actor, const PixelLanes& pixels, std::size_t lane) {
+  const auto probe = [&](const std::array<std::int16_t, 2>& offset) {
+    return actor.probe(pixels.x[lane] + wholePixels(static_cast<float>(offset[0]) * pixels.scale[lane]),
+                       pixels.y[lane] + wholePixels(static_cast<float>(offset[1]) * pixels.scale[lane]));
+  };
+  return !(probe(node.u) - probe(node.v) < node.threshold_m);
+}
+
+}  // namespace
+
+void descendPortable(const ForestTree& tree, const ActorDepth& actor, const PixelLanes& pixels, LeafLanes& leaves) {
+  std::array<std::int32_t, kLanes> at{};
+  // All lanes take one step before any takes the next, so that their cache misses overlap.
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const ForestNode& node = tree.nodes[static_cast<std::size_t>(at[lane])];
+      if (node.child <= 0) continue;
+      at[lane] = node.child + (goesRight(node, actor, pixels, lane) ? 1 : 0);
+      moved = true;
+    }
+  }
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    leaves[lane] = -tree.nodes[static_cast<std::size_t>(at[lane])].child;
+}
+
+#if defined(__x86_64__)
+namespace {
+
+static_assert(sizeof(ForestNode) == 16 && offsetof(ForestNode, v) == 4 && offsetof(ForestNode, threshold_m) == 8 &&
+              offsetof(ForestNode, child) == 12);
+
+// Eight pixels; nodes are read as four gathered 32-bit columns.
+struct Avx2Lanes {
+  __m256i x, y;
+  __m256 scale;
+  __m256i node;
+};
+
+struct Avx2Frame {
+  const float* depth;
+  __m256i pitch, last_column, last_row;
+};
+
+__attribute__((target("avx2"), always_inline)) inline __m256i wholePixels8(__m256i offset, __m256 scale) {
+  const __m256 shifted = _mm256_add_ps(_mm256_mul_ps(_mm256_cvtepi32_ps(offset), scale), _mm256_set1_ps(4096.5F));
+  return _mm256_sub_epi32(_mm256_cvttps_epi32(shifted), _mm256_set1_epi32(4096));
+}
+
+__attribute__((target("avx2"), always_inline)) inline __m256 probe8(const Avx2Frame& frame, const Avx2Lanes& lanes,
+                                                                    __m256i offset_xy) {
+  const __m256i zero = _mm256_setzero_si256();
+  const __m256i offset_x = _mm256_srai_epi32(_mm256_slli_epi32(offset_xy, 16), 16);
+  const __m256i offset_y = _mm256_srai_epi32(offset_xy, 16);
+  __m256i column = _mm256_add_epi32(lanes.x, wholePixels8(offset_x, lanes.scale));
+  __m256i row = _mm256_add_epi32(lanes.y, wholePixels8(offset_y, lanes.scale));
+  column = _mm256_min_epi32(_mm256_max_epi32(column, zero), frame.last_column);
+  row = _mm256_min_epi32(_mm256_max_epi32(row, zero), frame.last_row);
+  return _mm256_i32gather_ps(frame.depth, _mm256_add_epi32(_mm256_mullo_epi32(row, frame.pitch), column), 4);
+}
+
+// One step down; the result says which lanes were not in a leaf yet.
+__attribute__((target("avx2"), always_inline)) inline int step8(const int* nodes, const Avx2Frame& frame,
+                                                                Avx2Lanes& lanes) {
+  const __m256i word = _mm256_slli_epi32(lanes.node, 2);
+  const __m256i child = _mm256_i32gather_epi32(nodes + 3, word, 4);
+  const __m256i inner = _mm256_cmpgt_epi32(child, _mm256_setzero_si256());
+  const int moved = _mm256_movemask_ps(_mm256_castsi256_ps(inner));
+  if (moved == 0) return 0;
+  const __m256i u = _mm256_i32gather_epi32(nodes, word, 4);
+  const __m256i v = _mm256_i32gather_epi32(nodes + 1, word, 4);
+  const __m256 threshold = _mm256_castsi256_ps(_mm256_i32gather_epi32(nodes + 2, word, 4));
+  const __m256 feature = _mm256_sub_ps(probe8(frame, lanes, u), probe8(frame, lanes, v));
+  const __m256i right = _mm256_castps_si256(_mm256_cmp_ps(feature, threshold, _CMP_NLT_UQ));  // -1 where right
+  lanes.node = _mm256_blendv_epi8(lanes.node, _mm256_sub_epi32(child, right), inner);
+  return moved;
+}
+
+}  // namespace
+
+__attribute__((target("avx2"))) void descendAvx2(const ForestTree& tree, const ActorDepth& actor,
+                                                 const PixelLanes& pixels, LeafLanes& leaves) {
+  static_assert(kLanes == 16);
+  const auto* nodes = reinterpret_cast<const int*>(tree.nodes.data());
+  const Avx2Frame frame{actor.depth_m.data(), _mm256_set1_epi32(actor.pitch()), _mm256_set1_epi32(actor.width + 1),
+                        _mm256_set1_epi32(actor.height + 1)};
+  const auto load = [&](std::size_t i) __attribute__((target("avx2"))) {
+    return Avx2Lanes{_mm256_load_si256(reinterpret_cast<const __m256i*>(&pixels.x[i])),
+                     _mm256_load_si256(reinterpret_cast<const __m256i*>(&pixels.y[i])),
+                     _mm256_load_ps(&pixels.scale[i]), _mm256_setzero_si256()};
+  };
+  Avx2Lanes first = load(0);
+  Avx2Lanes second = load(8);
+  while ((step8(nodes, frame, first) | step8(nodes, frame, second)) != 0) {
+  }
+  alignas(32) std::array<std::int32_t, kLanes> at;
+  _mm256_store_si256(reinterpret_cast<__m256i*>(at.data()), first.node);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(at.data() + 8), second.node);
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    leaves[lane] = -tree.nodes[static_cast<std::size_t>(at[lane])].child;
+}
+#endif
+
+Descend chooseDescend(bool simd) {
+#if defined(__x86_64__)
+  if (simd && __builtin_cpu_supports("avx2")) return descendAvx2;
+#endif
+  (void)simd;
+  return descendPortable;
+}
+
+}  // namespace depthmocap
