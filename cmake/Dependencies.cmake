@@ -10,6 +10,7 @@ find_package(PCL REQUIRED COMPONENTS common sample_consensus search segmentation
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore)
 find_package(embree 3 REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(flann REQUIRED IMPORTED_TARGET flann)
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,12 +10,12 @@
 
 namespace depthmocap {
 
-// What recording.json says (../contract: "Recording: a folder"). Frames are handed out undistorted and in metres.
+// What recording.json says. Frames are handed out undistorted and in metres.
 struct RecordingInfo {
   CameraModel camera;
-  double fps = 30.0;              // [1/s] (> 0)
-  double depth_unit_m = 0.001;    // [m] per stored step (> 0)
-  std::string camera_name;        // "kinect1", "kinect2", ...
+  double fps = 30.0;            // [1/s] (> 0)
+  double depth_unit_m = 0.001;  // [m] per stored step (> 0)
+  std::string camera_name;      // "kinect1", "kinect2", ...
   std::string note;
   std::string extra_json = "{}";  // unknown keys, kept when the recording is rewritten
 };
@@ -27,15 +28,21 @@ class RecordingReader {
   [[nodiscard]] virtual std::size_t frameCount() const = 0;
   // Reads frame i in [0, frameCount()) into `frame`, reusing its memory. A file that cannot be read or does not fit the
   // recording (missing, truncated, 8-bit, wrong size) throws Error naming the file and the reason.
+  // The frame's own number and time are then not given; the other frames can still be read.
   virtual void read(std::size_t i, DepthFrame& frame) = 0;
+  // Number and time of frame i without reading its picture.
+  [[nodiscard]] virtual std::int64_t frameNumber(std::size_t i) const = 0;
+  [[nodiscard]] virtual double time(std::size_t i) const = 0;  // [s]
 };
 
-// Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN, zero
-// or negative, no frame at all, times out of order).
+// Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN,
+// zero or negative, no frame at all, times out of order). Pictures are opened one by one, in read().
 std::unique_ptr<RecordingReader> openRecording(const std::filesystem::path& path);
 
-// Writes a recording folder; refuses to overwrite one. Each PNG is written whole or not at all; frames.csv grows with each
-// frame, so that a recording cut short is readable up to its last frame.
+// Writes a recording folder; refuses to overwrite one. Each PNG is written whole or not at all; frames.csv grows with
+// each frame, so that a recording cut short is readable up to its last frame. Frames are undistorted, so the camera's
+// distortion is not written. Frame numbers and times must grow; a frame that does not follow, and every failure of the
+// file system, throws Error.
 class RecordingWriter {
  public:
   RecordingWriter(const std::filesystem::path& path, const RecordingInfo& info);

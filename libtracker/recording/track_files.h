@@ -29,11 +29,14 @@ struct PoseRow {
   Pose q = Pose::Zero();
 };
 
+// Columns beyond the known ones and lines that start with # are skipped. A damaged row (too few fields, no number,
+// frame numbers or times that do not grow, a confidence outside [0, 1]) throws Error with file and line. Truth and
+// reference files of a recording have the same form.
 std::vector<JointsRow> readJointsFile(const std::filesystem::path& path);
 std::vector<PoseRow> readPoseFile(const std::filesystem::path& path);
 
-// Row by row into a temporary file beside `path`; finish() renames it into place, the destructor without finish() too if any
-// row was written, so that what was tracked before a failure is kept.
+// Row by row into a temporary file beside `path`; finish() renames it into place, the destructor without finish() too
+// if any row was written, so that what was tracked before a failure is kept.
 class JointsWriter {
  public:
   explicit JointsWriter(const std::filesystem::path& path);

@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libtracker/recording/recording.h"
+
+namespace depthmocap {
+
+// One row of a recording's index.
+struct IndexEntry {
+  std::int64_t frame = 0;
+  double time_s = 0;
+  std::filesystem::path file;  // 16-bit PNG
+};
+
+// A recording whose index is known: reads the depth pictures that the index names.
+class ImageListReader : public RecordingReader {
+ public:
+  ImageListReader(RecordingInfo info, std::vector<IndexEntry> index);
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+  [[nodiscard]] std::size_t frameCount() const override { return index_.size(); }
+  void read(std::size_t i, DepthFrame& frame) override;
+  [[nodiscard]] std::int64_t frameNumber(std::size_t i) const override { return index_[i].frame; }
+  [[nodiscard]] double time(std::size_t i) const override { return index_[i].time_s; }
+
+ private:
+  RecordingInfo info_;
+  std::vector<IndexEntry> index_;
+  std::vector<std::int32_t> undistortion_;  // empty: the camera has none
+  Image<std::uint16_t> raw_;
+};
+
+// Both throw Error as openRecording does.
+std::unique_ptr<RecordingReader> openRecordingFolder(const std::filesystem::path& folder);
+// TUM RGB-D benchmark (Sturm et al. 2012): depth.txt with rows `timestamp file`, 640x480, 5000 steps a metre.
+std::unique_ptr<RecordingReader> openTumFolder(const std::filesystem::path& folder);
+
+// `folder`/`name` for a name found in an index; Error unless it is a relative path that stays inside the folder.
+std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view name, const std::string& where);
+
+}  // namespace depthmocap

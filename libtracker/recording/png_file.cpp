@@ -1,0 +1,163 @@
+#include "libtracker/recording/png_file.h"
+
+#include <bit>
+#include <cerrno>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <png.h>
+
+#include "libtracker/core/atomic_file.h"
+#include "libtracker/core/check.h"
+#include "libtracker/core/error.h"
+
+// libpng itself, not OpenCV's imread: that one hands out a picture that is cut short half filled, with a warning only.
+namespace depthmocap {
+
+namespace {
+
+constexpr int kCompressionLevel = 1;  // of 9: a depth picture comes out hardly larger, several times as fast
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+// libpng reports an error by calling this, and it must not return.
+[[noreturn]] void onError(png_structp png, png_const_charp message) {
+  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+  png_longjmp(png, 1);
+}
+
+void onWarning(png_structp, png_const_charp) {}  // about optional chunks only; libraries print nothing
+
+struct Reader {
+  std::string failure;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning);
+  png_infop info = png_create_info_struct(png);
+
+  Reader() = default;
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+struct Writer {
+  std::string failure;
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning);
+  png_infop info = png_create_info_struct(png);
+
+  Writer() = default;
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+// The functions around setjmp hold no object with a destructor: longjmp would skip it. They return false when libpng
+// gave up.
+bool readHeader(Reader& reader, std::FILE* file) {
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_init_io(reader.png, file);
+  png_read_info(reader.png, reader.info);
+  return true;
+}
+
+bool readRows(Reader& reader, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  if (std::endian::native == std::endian::little) png_set_swap(reader.png);
+  png_read_image(reader.png, rows);
+  png_read_end(reader.png, nullptr);
+  return true;
+}
+
+void appendBytes(png_structp png, png_bytep data, std::size_t size) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+}
+
+bool writeRows(Writer& writer, int width, int height, int bits, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
+  png_set_write_fn(writer.png, &writer.bytes, appendBytes, nullptr);
+  png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
+               PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(writer.png, kCompressionLevel);
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, bits == 16 ? PNG_FILTER_SUB : PNG_FILTER_NONE);
+  png_write_info(writer.png, writer.info);
+  if (std::endian::native == std::endian::little) png_set_swap(writer.png);
+  png_write_image(writer.png, rows);
+  png_write_end(writer.png, nullptr);
+  return true;
+}
+
+std::string sizeText(long width, long height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void checkHeader(const Reader& reader, int width, int height, int bits, const std::string& where) {
+  if (png_get_color_type(reader.png, reader.info) != PNG_COLOR_TYPE_GRAY) {
+    throw Error("is not a one-channel grey picture", where);
+  }
+  const int found_bits = png_get_bit_depth(reader.png, reader.info);
+  if (found_bits != bits) {
+    throw Error("has " + std::to_string(found_bits) + " bits a pixel, " + std::to_string(bits) + " are needed", where);
+  }
+  const auto found_width = static_cast<long>(png_get_image_width(reader.png, reader.info));
+  const auto found_height = static_cast<long>(png_get_image_height(reader.png, reader.info));
+  if (found_width != width || found_height != height) {
+    throw Error("is " + sizeText(found_width, found_height) + " pixels, not " + sizeText(width, height), where);
+  }
+}
+
+template <typename Value>
+std::vector<png_bytep> rowsOf(Image<Value>& image) {
+  std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(image.height));
+  for (int y = 0; y < image.height; ++y) rows.push_back(reinterpret_cast<png_bytep>(&image.at(0, y)));
+  return rows;
+}
+
+template <typename Value>
+void readPng(const std::filesystem::path& path, int width, int height, Image<Value>& image) {
+  const std::string where = path.string();
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw Error(std::string("cannot be read: ") + std::strerror(errno), where);
+  Reader reader;
+  if (!readHeader(reader, file.get())) throw Error("is not a whole PNG picture: " + reader.failure, where);
+  checkHeader(reader, width, height, 8 * static_cast<int>(sizeof(Value)), where);
+  image.reset(width, height, 0);
+  if (!readRows(reader, rowsOf(image).data())) throw Error("is damaged or cut short: " + reader.failure, where);
+}
+
+template <typename Value>
+void writePng(const std::filesystem::path& path, const Image<Value>& image) {
+  DMC_CHECK(!image.empty());
+  Writer writer;
+  // libpng takes rows to write through a pointer to non-const; it does not change them.
+  auto rows = rowsOf(const_cast<Image<Value>&>(image));
+  const int bits = 8 * static_cast<int>(sizeof(Value));
+  if (!writeRows(writer, image.width, image.height, bits, rows.data())) throw Error(writer.failure, path.string());
+  writeFileAtomically(path, writer.bytes);
+}
+
+}  // namespace
+
+void readPng16(const std::filesystem::path& path, int width, int height, Image<std::uint16_t>& image) {
+  readPng(path, width, height, image);
+}
+
+void readPng8(const std::filesystem::path& path, int width, int height, Image<std::uint8_t>& image) {
+  readPng(path, width, height, image);
+}
+
+void writePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image) {
+  writePng(path, image);
+}
+
+void writePng8(const std::filesystem::path& path, const Image<std::uint8_t>& image) {
+  writePng(path, image);
+}
+
+}  // namespace depthmocap

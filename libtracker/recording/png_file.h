@@ -1,0 +1,20 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+
+#include "libtracker/core/image.h"
+
+namespace depthmocap {
+
+// One-channel grey PNG files: 16 bit for depth, 8 bit for part labels. Written whole or not at all, at a fast
+// compression.
+//
+// Reading throws Error if the file is missing, is no PNG, is cut short or damaged (every checksum is verified), has
+// colour, alpha or another depth than the function's name says, or is not width x height pixels. `image` is reused.
+void readPng16(const std::filesystem::path& path, int width, int height, Image<std::uint16_t>& image);
+void readPng8(const std::filesystem::path& path, int width, int height, Image<std::uint8_t>& image);
+
+void writePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image);
+void writePng8(const std::filesystem::path& path, const Image<std::uint8_t>& image);
+
+}  // namespace depthmocap

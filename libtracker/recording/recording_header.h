@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+
+#include "libtracker/recording/recording.h"
+
+namespace depthmocap {
+
+// recording.json to RecordingInfo, checked field by field; Error names the file, the field and the rule.
+RecordingInfo readRecordingHeader(const std::filesystem::path& file);
+// The reverse, with the keys of info.extra_json. Distortion is not written: a writer is handed undistorted frames.
+void writeRecordingHeader(const std::filesystem::path& file, const RecordingInfo& info);
+
+// Throws Error unless the camera can be used: sizes in [1, 16384], focal lengths positive, everything finite.
+void checkCamera(const CameraModel& camera, const std::string& where);
+
+}  // namespace depthmocap

@@ -1,0 +1,168 @@
+#include "libtracker/recording/track_files.h"
+
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "libtracker/core/atomic_file.h"
+#include "libtracker/core/check.h"
+#include "libtracker/core/csv.h"
+
+namespace depthmocap {
+
+namespace {
+
+constexpr std::size_t kFirstJointColumn = 3;  // after frame, time_s, state
+constexpr std::size_t kColumnsPerJoint = 4;   // x y z c
+constexpr std::size_t kFirstDofColumn = 2;    // after frame, time_s
+
+// The frame that uprightWorldFromCamera() leads to.
+constexpr std::string_view kWorldFrameComment =
+    "# world frame: y up, x right, z towards the camera; metres, radians; p_camera = (x, -y, -z)\n";
+
+std::vector<std::string> jointsColumns() {
+  std::vector<std::string> columns = {"frame", "time_s", "state"};
+  for (const std::string_view joint : kJointNames) {
+    for (const char* suffix : {"_x", "_y", "_z", "_c"}) columns.push_back(std::string(joint) + suffix);
+  }
+  return columns;
+}
+
+std::vector<std::string> poseColumns() {
+  std::vector<std::string> columns = {"frame", "time_s"};
+  columns.insert(columns.end(), kDofNames.begin(), kDofNames.end());
+  return columns;
+}
+
+TrackState parseState(const CsvReader& csv, std::string_view text) {
+  for (const TrackState state : {TrackState::Tracking, TrackState::Coasting, TrackState::Lost}) {
+    if (text == trackStateName(state)) return state;
+  }
+  csv.fail("state must be tracking, coasting or lost");
+}
+
+// Frame and time of the current row, which both file kinds start with.
+template <typename Row>
+Row startRow(const CsvReader& csv, const std::vector<Row>& rows) {
+  Row row;
+  row.frame = csv.integer(0);
+  row.time_s = csv.number(1);
+  if (!rows.empty() && row.frame <= rows.back().frame) csv.fail("frame numbers must grow from row to row");
+  if (!rows.empty() && row.time_s <= rows.back().time_s) csv.fail("times must grow from row to row");
+  return row;
+}
+
+void readJointPositions(const CsvReader& csv, JointsRow& row) {
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    const std::size_t column = kFirstJointColumn + kColumnsPerJoint * static_cast<std::size_t>(joint);
+    for (int axis = 0; axis < 3; ++axis) {
+      row.p_camera(axis, joint) = csv.number(column + static_cast<std::size_t>(axis));
+    }
+    row.confidence[joint] = csv.number(column + 3);
+    if (row.confidence[joint] < 0 || row.confidence[joint] > 1) csv.fail("a confidence lies outside [0, 1]");
+  }
+}
+
+}  // namespace
+
+std::vector<JointsRow> readJointsFile(const std::filesystem::path& path) {
+  CsvReader csv(path);
+  csv.readHeader(jointsColumns());
+  std::vector<JointsRow> rows;
+  while (csv.next()) {
+    auto row = startRow(csv, rows);
+    row.state = parseState(csv, csv.field(2));
+    if (row.state != TrackState::Lost) readJointPositions(csv, row);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<PoseRow> readPoseFile(const std::filesystem::path& path) {
+  CsvReader csv(path);
+  csv.readHeader(poseColumns());
+  std::vector<PoseRow> rows;
+  while (csv.next()) {
+    auto row = startRow(csv, rows);
+    for (int i = 0; i < kDofCount; ++i) row.q[i] = csv.number(kFirstDofColumn + static_cast<std::size_t>(i));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// A table on its way to a file: kept whenever it holds whole rows, even when the work was broken off.
+class RowFile {
+ public:
+  RowFile(const std::filesystem::path& path, std::string_view head) : file_(path) { file_.write(head); }
+  ~RowFile() {
+    if (!worth_keeping_) return;
+    try {
+      file_.commit();
+    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): another failure is already being reported
+    }
+  }
+  RowFile(const RowFile&) = delete;
+  RowFile& operator=(const RowFile&) = delete;
+
+  void write(std::string_view row) {
+    worth_keeping_ = false;  // a row that fails halfway (disk full) spoils the file
+    file_.write(row);
+    worth_keeping_ = true;
+  }
+  void finish() {
+    worth_keeping_ = false;
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  bool worth_keeping_ = false;
+};
+
+struct JointsWriter::Impl : RowFile {
+  using RowFile::RowFile;
+};
+
+struct PoseWriter::Impl : RowFile {
+  using RowFile::RowFile;
+};
+
+JointsWriter::JointsWriter(const std::filesystem::path& path)
+    : impl_(std::make_unique<Impl>(path, fmt::format("{}\n", fmt::join(jointsColumns(), ",")))) {}
+JointsWriter::~JointsWriter() = default;
+
+void JointsWriter::write(const JointsRow& row) {
+  DMC_CHECK(row.p_camera.allFinite() && row.confidence.allFinite());
+  std::string text = fmt::format("{},{:.6f},{}", row.frame, row.time_s, trackStateName(row.state));
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    if (row.state == TrackState::Lost) {
+      text += ",,,,0";
+    } else {
+      const auto p = row.p_camera.col(joint);
+      fmt::format_to(std::back_inserter(text), ",{:.6f},{:.6f},{:.6f},{:.3f}", p.x(), p.y(), p.z(),
+                     row.confidence[joint]);
+    }
+  }
+  impl_->write(text + "\n");
+}
+
+void JointsWriter::finish() {
+  impl_->finish();
+}
+
+PoseWriter::PoseWriter(const std::filesystem::path& path)
+    : impl_(std::make_unique<Impl>(path, fmt::format("{}{}\n", kWorldFrameComment, fmt::join(poseColumns(), ",")))) {}
+PoseWriter::~PoseWriter() = default;
+
+void PoseWriter::write(const PoseRow& row) {
+  DMC_CHECK(row.q.allFinite());
+  std::string text = fmt::format("{},{:.6f}", row.frame, row.time_s);
+  for (int i = 0; i < kDofCount; ++i) fmt::format_to(std::back_inserter(text), ",{:.6f}", row.q[i]);
+  impl_->write(text + "\n");
+}
+
+void PoseWriter::finish() {
+  impl_->finish();
+}
+
+}  // namespace depthmocap
