@@ -1,0 +1,229 @@
+#include "forest/render/sensor_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "libtracker/core/check.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr double kStored_m = 0.001;  // [m] both sensors deliver whole millimetres
+
+float toWholeMillimetres(double depth_m) {
+  return static_cast<float>(std::round(depth_m / kStored_m) * kStored_m);
+}
+
+// A jump that neither sensor's smooth surfaces make within a pixel.
+double edgeJump(double depth_m) {
+  return 0.03 + 0.015 * depth_m;
+}
+
+struct Neighbourhood {
+  bool edge = false;    // a jump to one of the 8 neighbours, or a neighbour without surface
+  bool before = false;  // this pixel is on the near side of it
+  double behind_m = 0;  // [m] depth of the farthest neighbour; 0 = one has nothing behind
+};
+
+Neighbourhood lookAround(const DepthImage& depth, int x, int y) {
+  const double here = depth.at(x, y);
+  const double jump = edgeJump(here);
+  Neighbourhood result;
+  double farthest = here;
+  bool open = false;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (!depth.contains(x + dx, y + dy)) continue;
+      const double there = depth.at(x + dx, y + dy);
+      open = open || there <= 0.0;
+      farthest = std::max(farthest, there);
+      result.edge = result.edge || std::abs(there - here) > jump;
+    }
+  }
+  result.before = open || farthest - here > jump;
+  result.behind_m = open ? 0.0 : farthest;
+  return result;
+}
+
+// A standard normal field is above this value on a share of the image (a logistic fit of the normal quantile, good to
+// 0.02 for shares in 0.02 .. 0.98).
+float thresholdForShare(double share) {
+  if (share <= 0.0) return 1e9F;
+  if (share >= 1.0) return -1e9F;
+  return static_cast<float>(std::log((1.0 - share) / share) / 1.702);
+}
+
+// Sets to "no measurement" discs of random places in the box of the picture.
+void punchHoles(const RenderedView& view, double holes_a_pixel, double scale, Random& random, DepthImage& depth) {
+  const int width = view.x1 - view.x0;
+  const int height = view.y1 - view.y0;
+  if (width <= 0 || height <= 0) return;
+  const double mean = holes_a_pixel * width * height;
+  const int count = static_cast<int>(mean + random.uniform());
+  for (int i = 0; i < count; ++i) {
+    const int cx = view.x0 + static_cast<int>(random.below(static_cast<std::uint32_t>(width)));
+    const int cy = view.y0 + static_cast<int>(random.below(static_cast<std::uint32_t>(height)));
+    const double radius = std::max(0.7, random.uniform(0.8, 4.0) * scale);
+    const int reach = static_cast<int>(std::ceil(radius));
+    for (int y = cy - reach; y <= cy + reach; ++y) {
+      for (int x = cx - reach; x <= cx + reach; ++x) {
+        const double d2 = (x - cx) * (x - cx) + (y - cy) * (y - cy);
+        if (depth.contains(x, y) && d2 <= radius * radius) depth.at(x, y) = 0.0F;
+      }
+    }
+  }
+}
+
+// The matcher has no measurement for less than a few pixels of one surface.
+void removeSpeckles(const RenderedView& view, const DepthImage& unfiltered, DepthImage& depth) {
+  constexpr int kSupport = 3;
+  for (int y = view.y0; y < view.y1; ++y) {
+    for (int x = view.x0; x < view.x1; ++x) {
+      const double here = unfiltered.at(x, y);
+      if (here <= 0.0) continue;
+      int support = 0;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (!unfiltered.contains(x + dx, y + dy) || (dx == 0 && dy == 0)) continue;
+          const double there = unfiltered.at(x + dx, y + dy);
+          support += there > 0.0 && std::abs(there - here) < 2.0 * edgeJump(here) ? 1 : 0;
+        }
+      }
+      if (support < kSupport) depth.at(x, y) = 0.0F;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<SensorKind> sensorNamed(std::string_view name) {
+  for (const SensorKind kind : {SensorKind::Kinect1, SensorKind::Kinect2}) {
+    if (sensorName(kind) == name) return kind;
+  }
+  return std::nullopt;
+}
+
+CameraModel sensorCamera(SensorKind kind, bool half_size) {
+  CameraModel camera;
+  camera.width = kind == SensorKind::Kinect1 ? 640 : 512;
+  camera.height = kind == SensorKind::Kinect1 ? 480 : 424;
+  camera.fx = camera.fy = kind == SensorKind::Kinect1 ? 575.8 : 365.0;
+  if (half_size) {
+    camera.width /= 2;
+    camera.height /= 2;
+    camera.fx = camera.fy = camera.fx / 2;
+  }
+  camera.cx = 0.5 * (camera.width - 1);
+  camera.cy = 0.5 * (camera.height - 1);
+  return camera;
+}
+
+RenderOptions SensorModel::renderOptions() const {
+  RenderOptions options;
+  options.incidence = true;
+  if (kind_ == SensorKind::Kinect1) options.p_camera_projector = Eigen::Vector3d(kinect1.baseline_m, 0.0, 0.0);
+  return options;
+}
+
+void SensorModel::apply(const RenderedView& view, const CameraModel& camera, Random& random, DepthImage& depth,
+                        PartImage& parts) {
+  DMC_CHECK(view.incidence.data.size() == view.depth.data.size());
+  DMC_CHECK(kind_ == SensorKind::Kinect2 || view.lit.data.size() == view.depth.data.size());
+  depth.reset(camera.width, camera.height, 0.0F);
+  parts.reset(camera.width, camera.height, 0);
+  const double scale = camera.fx / sensorCamera(kind_).fx;
+  if (kind_ == SensorKind::Kinect1) {
+    applyKinect1(view, scale, random, depth, parts);
+  } else {
+    applyKinect2(view, scale, random, depth, parts);
+  }
+}
+
+void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& random, DepthImage& depth,
+                               PartImage& parts) {
+  const Kinect1Noise& n = kinect1;
+  const int width = view.depth.width;
+  const int height = view.depth.height;
+  const double window = std::max(1.5, n.window_px * scale);
+  const double wobble = std::max(1.0, 0.6 * window);
+  shift_x_.draw(width, height, wobble, random);
+  shift_y_.draw(width, height, wobble, random);
+  error_.draw(width, height, window, random);
+  dropout_.draw(width, height, wobble, random);
+  const double lateral = n.lateral_noise_px * scale;
+  const double focal_baseline = n.focal_px * n.baseline_m;
+  const float edge_threshold = thresholdForShare(n.edge_dropout);
+  const float hair_threshold = thresholdForShare(n.hair_dropout);
+
+  const int margin = static_cast<int>(std::ceil(3.0 * lateral));
+  for (int y = std::max(0, view.y0 - margin); y < std::min(height, view.y1 + margin); ++y) {
+    for (int x = std::max(0, view.x0 - margin); x < std::min(width, view.x1 + margin); ++x) {
+      const int sx = std::clamp(x + static_cast<int>(std::lround(lateral * shift_x_.at(x, y))), 0, width - 1);
+      const int sy = std::clamp(y + static_cast<int>(std::lround(lateral * shift_y_.at(x, y))), 0, height - 1);
+      const double clean = view.depth.at(sx, sy);
+      if (clean <= 0.0 || view.lit.at(sx, sy) == 0) continue;
+      const float cosine = view.incidence.at(sx, sy);
+      const float drop = dropout_.at(x, y);
+      const bool head = view.parts.at(sx, sy) == static_cast<std::uint8_t>(Part::Head);
+      if (cosine < n.grazing_cos * (1.0 + 0.5 * drop)) continue;
+      if (head && cosine < 0.7F && drop > hair_threshold) continue;
+      if (drop > edge_threshold && lookAround(view.depth, sx, sy).edge) continue;
+
+      const double slant = 1.0 / std::max(0.3, static_cast<double>(cosine));
+      const double noise = slant * (n.window_noise_px * error_.at(x, y) + n.pixel_noise_px * random.normal());
+      const double disparity = std::round((focal_baseline / clean + noise) / n.disparity_step_px) * n.disparity_step_px;
+      const double measured = disparity > 0.0 ? focal_baseline / disparity : 0.0;
+      if (measured < n.min_depth_m || measured > n.max_depth_m) continue;
+      depth.at(x, y) = toWholeMillimetres(measured);
+      parts.at(x, y) = view.parts.at(sx, sy);
+    }
+  }
+  punchHoles(view, n.holes / (640.0 * 480.0 * scale * scale), scale, random, depth);
+  unfiltered_ = depth;
+  removeSpeckles(view, unfiltered_, depth);
+  for (std::size_t i = 0; i < depth.data.size(); ++i) {
+    if (depth.data[i] <= 0.0F) parts.data[i] = 0;
+  }
+}
+
+void SensorModel::applyKinect2(const RenderedView& view, double scale, Random& random, DepthImage& depth,
+                               PartImage& parts) {
+  const Kinect2Noise& n = kinect2;
+  const int width = view.depth.width;
+  const int height = view.depth.height;
+  const double lateral = n.lateral_noise_px * scale;
+  shift_x_.draw(width, height, 2.0, random);
+  shift_y_.draw(width, height, 2.0, random);
+  error_.draw(width, height, n.multipath_px * scale, random);
+
+  const int margin = static_cast<int>(std::ceil(3.0 * lateral));
+  for (int y = std::max(0, view.y0 - margin); y < std::min(height, view.y1 + margin); ++y) {
+    for (int x = std::max(0, view.x0 - margin); x < std::min(width, view.x1 + margin); ++x) {
+      const int sx = std::clamp(x + static_cast<int>(std::lround(lateral * shift_x_.at(x, y))), 0, width - 1);
+      const int sy = std::clamp(y + static_cast<int>(std::lround(lateral * shift_y_.at(x, y))), 0, height - 1);
+      const double clean = view.depth.at(sx, sy);
+      if (clean <= 0.0) continue;
+      const double cosine = view.incidence.at(sx, sy);
+      if (cosine < n.grazing_cos) continue;
+      const double slant = 1.0 / std::max(0.25, cosine);
+      const double spread = (n.noise_m + n.noise_per_m2 * clean * clean) * (0.5 + 0.5 * slant);
+      double measured = clean + spread * random.normal() + n.multipath_m * error_.at(x, y);
+      std::uint8_t part = view.parts.at(sx, sy);
+      const Neighbourhood around = lookAround(view.depth, sx, sy);
+      if (around.before && random.uniform() < n.flying_share) {
+        const double mix = random.uniform();
+        const double gap = around.behind_m > 0.0 ? around.behind_m - clean : n.flying_reach_m;
+        // A pixel that is mostly background, with nothing there, is not measured at all.
+        if (around.behind_m <= 0.0 && mix > 0.6) continue;
+        measured += mix * mix * gap;
+        if (mix * mix * gap > 0.1) part = 0;
+      }
+      if (measured < n.min_depth_m || measured > n.max_depth_m) continue;
+      depth.at(x, y) = toWholeMillimetres(measured);
+      parts.at(x, y) = part;
+    }
+  }
+}
+
+}  // namespace depthmocap
