@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+// Each adds one command to the program. Its callback does the work: results to stdout or files, Error on failure.
+namespace depthmocap {
+
+void addEvaluateCommand(CLI::App& app);
+
+}  // namespace depthmocap
