@@ -1,0 +1,74 @@
+#include "libtracker/body/builtin_body.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "libtracker/body/anatomy.h"
+#include "libtracker/body/part_regions.h"
+#include "libtracker/body/polygonise.h"
+#include "libtracker/body/skin_weights.h"
+#include "libtracker/core/error.h"
+
+namespace depthmocap {
+namespace {
+
+// Cell of the final grid and of the grids that only measure the volume, as shares of the stature.
+constexpr double kCellPerStature = 0.0072;
+constexpr double kCoarseCellPerStature = 0.018;
+constexpr double kLeanest = -0.7;
+constexpr double kFattest = 4.0;
+
+void validate(const BodyShape& shape) {
+  const auto require = [](const char* field, double value, double low, double high) {
+    if (value >= low && value <= high) return;
+    throw Error(fmt::format("{} is {}, outside {} .. {}", field, value, low, high), "body shape");
+  };
+  require("stature_m", shape.stature_m, 1.0, 2.2);
+  require("weight_kg", shape.weight_kg, 30, 160);
+}
+
+// The fatness whose volume is closest to the wanted one: bisection, the volume grows with the fatness.
+double fatnessFor(const BodyShape& shape, const BoneLengths& lengths, double volume) {
+  double low = kLeanest;
+  double high = kFattest;
+  for (int i = 0; i < 11; ++i) {
+    const double middle = 0.5 * (low + high);
+    const BodyField field = makeAnatomy(shape.sex, lengths, shape.stature_m, middle);
+    (fieldVolume(field, kCoarseCellPerStature * shape.stature_m) < volume ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+BoneLengths typicalBoneLengths(Sex sex, double stature_m) {
+  BoneLengths l;
+  if (sex == Sex::Female) {
+    // Shares of the stature of women over those of men (de Leva 1996, biacromial and bispinous breadths of ANSUR).
+    l.shoulder_width *= 0.945;
+    l.hip_width *= 1.03;
+    l.upper_arm *= 0.985;
+    l.lower_arm *= 0.965;
+    l.foot *= 0.965;
+    l.neck_to_head *= 0.99;
+    l.torso *= 1.01;
+  }
+  return l.scaled(stature_m / statureOf(l));
+}
+
+BodySurface makeBuiltinBody(const BodyShape& shape) {
+  validate(shape);
+  BodySurface body;
+  const BoneLengths lengths = typicalBoneLengths(shape.sex, shape.stature_m);
+  body.skeleton = makeSkeleton(lengths);
+  const double volume = shape.weight_kg / kBodyDensityKgPerLitre * 1e-3;
+  const double fatness = fatnessFor(shape, lengths, volume);
+  polygonise(makeAnatomy(shape.sex, lengths, shape.stature_m, fatness), kCellPerStature * shape.stature_m, body);
+  body.skin.reserve(body.vertices.size());
+  for (const Eigen::Vector3f& p : body.vertices) body.skin.push_back(skinOfPoint(body.skeleton, p));
+  labelParts(body);
+  return body;
+}
+
+}  // namespace depthmocap

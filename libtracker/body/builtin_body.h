@@ -1,0 +1,15 @@
+#pragma once
+#include "libtracker/body/body_surface.h"
+
+namespace depthmocap {
+
+// The parametric human that needs no files: a smooth union of anatomical masses placed by the joints.
+// Proportions by sex after Drillis and Contini (1966), de Leva (1996) and the girths of ANSUR (1988); girths grow until
+// the volume matches the weight. About 20,000 triangles, less than a second. Throws Error when a value of the shape is
+// outside its range.
+BodySurface makeBuiltinBody(const BodyShape& shape);
+
+// Bone lengths [m] of an adult of this sex and stature [m].
+BoneLengths typicalBoneLengths(Sex sex, double stature_m);
+
+}  // namespace depthmocap
