@@ -14,9 +14,10 @@ struct MapConfig {
   double lambda_marker = 5.0;      // (> 0) lambda2
   double lambda_smooth = 1.0;      // (>= 0) lambda3
   double lambda_limit = 10.0;      // (>= 0) joint limits, beyond the paper; 0 = none
+  double velocity_share = 1.0;     // (0 .. 1) share of the last velocity that E_smooth expects to go on; 1: the paper
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
   int max_iterations = 20;         // (>= 1) a guard: the mean is about 5
-  double energy_tolerance = 1e-5;  // (> 0) stop where one step changes half the energy by less
+  double energy_tolerance = 1e-5;  // (> 0) stop where one step changes the energy by less
   void validate() const;           // throws Error naming field, value and rule
 };
 

@@ -1,0 +1,40 @@
+#pragma once
+#include "libtracker/core/marker_set.h"
+#include "libtracker/skeleton/forward_kinematics.h"
+#include "libtracker/skeleton/marker_model.h"
+#include "libtracker/solve/residual_block.h"
+
+namespace depthmocap {
+
+// lambda2 E_marker of equation (5): sum over seen markers of lambda * confidence * rho(|f(q) - a~|), rho the
+// Lorentzian.
+//
+// Rows: three a marker, r = sqrt(lambda * confidence * rho(|e|) / |e|^2) e with e = f(q) - a~, so that |r|^2 is exactly
+// that; then one a marker whose residual is always 0 and whose "Jacobian" only adds curvature. For sqrt(rho) is
+// concave: Gauss-Newton on r alone overshoots a marker that is further than sigma away (by 2.4 times at 4 sigma). The
+// extra row raises the curvature along e to rho'(|e|^2), that of iteratively reweighted least squares, whose quadratic
+// model lies above rho everywhere. Energy and gradient stay exact.
+class MarkerTerm {
+ public:
+  static constexpr int kResidualRows = 3 * kPartCount;
+  static constexpr int kRows = kResidualRows + kPartCount;
+
+  // The references must outlive the term.
+  MarkerTerm(const Skeleton& skeleton, const MarkerModel& model, const MarkerSet& markers_world, double lambda,
+             double sigma_m)
+      : skeleton_(skeleton), model_(model), markers_(markers_world), lambda_(lambda), sigma_m_(sigma_m) {}
+
+  void evaluate(const Pose& q, ResidualRows r, JacobianRows* J);
+  // Confidence-weighted root mean square distance [m] of the seen markers from the model's at q; 0 if none is seen.
+  [[nodiscard]] double rms(const Pose& q);
+
+ private:
+  const Skeleton& skeleton_;
+  const MarkerModel& model_;
+  const MarkerSet& markers_;
+  double lambda_;
+  double sigma_m_;
+  ForwardKinematics fk_;
+};
+
+}  // namespace depthmocap

@@ -1,0 +1,214 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "libtracker/solve/limit_term.h"
+#include "libtracker/solve/marker_term.h"
+#include "libtracker/solve/prior_term.h"
+#include "libtracker/solve/smooth_term.h"
+#include "tests/gradient_check.h"
+#include "tests/unit/solve/solve_scene.h"
+
+namespace depthmocap {
+namespace {
+
+template <typename Term>
+Eigen::VectorXd residualOf(Term& term, const Pose& q) {
+  Eigen::VectorXd r = Eigen::VectorXd::Constant(Term::kRows, std::nan(""));
+  term.evaluate(q, r, nullptr);
+  return r;
+}
+
+// Checks the first `rows` rows.
+template <typename Term>
+void expectGradient(Term& term, const Pose& q, double tolerance = 1e-6, int rows = Term::kRows) {
+  const auto residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return residualOf(term, x).head(rows); };
+  const auto jacobian = [&](const Eigen::VectorXd& x) -> Eigen::MatrixXd {
+    Eigen::VectorXd r(Term::kRows);
+    Eigen::Matrix<double, Eigen::Dynamic, kDofCount> J(static_cast<Eigen::Index>(Term::kRows), kDofCount);
+    J.setConstant(std::nan(""));
+    JacobianRows J_rows = J;
+    term.evaluate(x, r, &J_rows);
+    EXPECT_TRUE(J.allFinite());
+    return J.topRows(rows);
+  };
+  expectJacobianMatches(q, residual, jacobian, tolerance);
+}
+
+double lorentzian(double e, double sigma) {
+  return std::log(1.0 + e * e / (2.0 * sigma * sigma));
+}
+
+TEST(MarkerTerm, GradientMatchesNearAndFarFromTheMarkers) {
+  const SolveScene scene;
+  Random random(1);
+  const Pose truth = SolveScene::motion(1, 0.3);
+  for (const double noise_m : {1e-4, 0.01, 0.05, 0.4}) {
+    const MarkerSet markers = scene.noisyMarkers(truth, noise_m, 3, random);
+    MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
+    expectGradient(term, truth, 1e-5, MarkerTerm::kResidualRows);
+    expectGradient(term, SolveScene::motion(1, 0.5), 1e-5, MarkerTerm::kResidualRows);
+  }
+}
+
+TEST(MarkerTerm, GradientIsFiniteAtAPerfectFit) {
+  const SolveScene scene;
+  const Pose truth = SolveScene::motion(2, 0.1);
+  const MarkerSet markers = scene.markers(truth);
+  MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
+  EXPECT_LT(residualOf(term, truth).norm(), 1e-12);
+  expectGradient(term, truth, 1e-6, MarkerTerm::kResidualRows);
+}
+
+TEST(MarkerTerm, EnergyIsTheWeightedLorentzianOfTheSeenMarkers) {
+  const SolveScene scene;
+  const Pose q = SolveScene::motion(3, 0.0);
+  MarkerSet markers = scene.markers(q);
+  markers.position.col(2).x() += 0.03;
+  markers.position.col(9).y() += 0.7;
+  markers.position.col(11).z() += 1e-6;
+  markers.position.col(4).setConstant(1e6);
+  markers.confidence[4] = 0;
+  markers.confidence[9] = 0.25;
+  MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
+  const double expected = 5.0 * (lorentzian(0.03, 0.05) + 0.25 * lorentzian(0.7, 0.05) + lorentzian(1e-6, 0.05));
+  EXPECT_NEAR(residualOf(term, q).squaredNorm(), expected, 1e-10);
+  EXPECT_NEAR(term.rms(q), std::sqrt((0.03 * 0.03 + 0.25 * 0.49) / 13.25), 1e-9);
+}
+
+// Moving along e: J^T J must be that of iteratively reweighted least squares, and the extra row must not touch the
+// gradient.
+TEST(MarkerTerm, CurvatureAlongTheErrorIsThatOfReweightedLeastSquares) {
+  const SolveScene scene;
+  const Pose q = SolveScene::motion(3, 0.0);
+  for (const double e : {1e-7, 0.01, 0.05, 0.2, 1.0}) {
+    MarkerSet markers = scene.markers(q);
+    markers.confidence.setZero();
+    markers.confidence[0] = 0.5;
+    markers.position(0, 0) += e;
+    MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
+    Eigen::VectorXd r(+MarkerTerm::kRows);
+    Eigen::Matrix<double, Eigen::Dynamic, kDofCount> J(+MarkerTerm::kRows, kDofCount);
+    JacobianRows rows = J;
+    term.evaluate(q, r, &rows);
+    const double slope = 2.5 / (2.0 * 0.05 * 0.05 + e * e);  // 2.5 rho'(e^2)
+    EXPECT_NEAR(J.col(kRootTx).squaredNorm(), slope, 1e-6 * slope);
+    EXPECT_NEAR(J.col(kRootTx).dot(r), -slope * e, 1e-6 * slope * e);
+    EXPECT_EQ(r.tail<kPartCount>().norm(), 0);
+  }
+}
+
+TEST(MarkerTerm, NoMarkersNoEnergy) {
+  const SolveScene scene;
+  const MarkerSet none;
+  MarkerTerm term(scene.skeleton, scene.model, none, 5.0, 0.05);
+  EXPECT_EQ(residualOf(term, Pose::Zero()).norm(), 0);
+  EXPECT_EQ(term.rms(Pose::Zero()), 0);
+}
+
+std::vector<Pose> somePoses() {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 20; ++i) poses.push_back(SolveScene::motion(4, 0.1 * i));
+  return poses;
+}
+
+TEST(PriorTerm, GradientMatches) {
+  const LocalPrior prior = SolveScene::priorOf(somePoses(), 2);
+  PriorTerm term(&prior, 0.2);
+  expectGradient(term, SolveScene::motion(5, 0.2));
+}
+
+TEST(PriorTerm, IsZeroOnTheSubspaceAndTheSquaredDistanceOffIt) {
+  const LocalPrior prior = SolveScene::priorOf(somePoses(), 3);
+  PriorTerm term(&prior, 0.2);
+  Pose q = prior.mean + prior.basis.leftCols<3>() * Eigen::Vector3d(0.7, -0.4, 0.2);
+  EXPECT_LT(residualOf(term, q).norm(), 1e-12);
+  q.head<3>() << 3, -2, 1;  // where the actor stands does not matter
+  q[kRootRy] = 2.5;
+  EXPECT_LT(residualOf(term, q).norm(), 1e-12);
+  Pose off = Pose::Zero();
+  for (int dof : kShapeDofs) off[dof] = 0.01 * dof;
+  off -= (prior.basis.leftCols<3>() * (prior.basis.leftCols<3>().transpose() * off)).eval();
+  EXPECT_NEAR(residualOf(term, q + off).squaredNorm(), 0.2 * off.squaredNorm(), 1e-12);
+}
+
+TEST(PriorTerm, NoPriorNoEnergy) {
+  PriorTerm term(nullptr, 0.2);
+  EXPECT_EQ(residualOf(term, SolveScene::motion(5, 0.2)).norm(), 0);
+}
+
+TEST(SmoothTerm, GradientMatches) {
+  const Pose q1 = SolveScene::motion(6, 0.1);
+  const Pose q2 = SolveScene::motion(6, 0.05);
+  SmoothTerm term(&q1, &q2, 1.0, 1.0);
+  expectGradient(term, SolveScene::motion(6, 0.2));
+}
+
+TEST(SmoothTerm, IsThePapersSecondDifference) {
+  const Pose q = SolveScene::motion(6, 0.2);
+  const Pose q1 = SolveScene::motion(6, 0.1);
+  const Pose q2 = SolveScene::motion(6, 0.05);
+  SmoothTerm term(&q1, &q2, 1.0, 3.0);
+  EXPECT_NEAR(residualOf(term, q).squaredNorm(), 3.0 * (q - 2 * q1 + q2).squaredNorm(), 1e-12);
+}
+
+TEST(SmoothTerm, ConstantVelocityCostsNothingAtUnevenTimes) {
+  const Pose q2 = SolveScene::motion(7, 0.0);
+  const Pose velocity = SolveScene::motion(7, 0.5) - q2;
+  const Pose q1 = q2 + 0.033 * velocity;
+  SmoothTerm term(&q1, &q2, 3.0, 1.0);
+  EXPECT_LT(residualOf(term, q1 + 0.099 * velocity).norm(), 1e-12);
+}
+
+TEST(SmoothTerm, HeadingGoesAroundTheCircle) {
+  Pose q2 = Pose::Zero();
+  Pose q1 = Pose::Zero();
+  Pose q = Pose::Zero();
+  q2[kRootRy] = 3.10;
+  q1[kRootRy] = 3.13;
+  q[kRootRy] = 3.16 - 2.0 * std::numbers::pi;
+  SmoothTerm term(&q1, &q2, 1.0, 1.0);
+  EXPECT_LT(residualOf(term, q).norm(), 1e-12);
+  q1[kRootRy] -= 2.0 * std::numbers::pi;
+  SmoothTerm across(&q1, &q2, 1.0, 1.0);
+  EXPECT_LT(residualOf(across, q).norm(), 1e-12);
+}
+
+TEST(SmoothTerm, WithOnePoseNoMotionIsExpectedAndWithNoneNothing) {
+  const Pose q1 = SolveScene::motion(8, 0.0);
+  SmoothTerm one(&q1, nullptr, 1.0, 1.0);
+  EXPECT_EQ(residualOf(one, q1).norm(), 0);
+  EXPECT_NEAR(residualOf(one, Pose(q1.array() + 0.1)).squaredNorm(), 0.01 * kDofCount, 1e-12);
+  SmoothTerm none(nullptr, nullptr, 1.0, 1.0);
+  EXPECT_EQ(residualOf(none, q1).norm(), 0);
+}
+
+TEST(LimitTerm, GradientMatchesOnBothSidesAndWithin) {
+  LimitTerm term(10.0);
+  expectGradient(term, jointLimits().upper.cwiseMin(3.0) + Pose::Constant(0.1));
+  expectGradient(term, jointLimits().lower.cwiseMax(-3.0) - Pose::Constant(0.1));
+  expectGradient(term, Pose::Zero());
+}
+
+TEST(LimitTerm, CostsTheSquaredExcessOnly) {
+  LimitTerm term(10.0);
+  Pose q = SolveScene::motion(9, 0.3);
+  q[kRootRy] = 100;
+  q[kRootTx] = -40;
+  EXPECT_EQ(residualOf(term, clampedToLimits(q)).norm(), 0);
+  q = clampedToLimits(q);
+  q[kRtibiaRx] = jointLimits().lower[kRtibiaRx] - 0.3;
+  q[kLradiusRy] = jointLimits().upper[kLradiusRy] + 0.1;
+  EXPECT_NEAR(residualOf(term, q).squaredNorm(), 10.0 * (0.09 + 0.01), 1e-12);
+}
+
+TEST(WrappedAngle, StaysInTheHalfOpenRange) {
+  EXPECT_NEAR(wrappedAngle(7.0), 7.0 - 2 * std::numbers::pi, 1e-12);
+  EXPECT_DOUBLE_EQ(wrappedAngle(-std::numbers::pi), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(wrappedAngle(std::numbers::pi), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(wrappedAngle(-0.5), -0.5);
+}
+
+}  // namespace
+}  // namespace depthmocap
