@@ -46,6 +46,25 @@ Neighbourhood lookAround(const DepthImage& depth, int x, int y) {
   return result;
 }
 
+// The mean inverse depth of the surface that a matching window around the pixel covers: windows round off what is
+// smaller than they are, above all the steep rims of limbs.
+double windowDisparity(const DepthImage& depth, int x, int y, int stride, double focal_baseline) {
+  const double here = depth.at(x, y);
+  const double jump = edgeJump(here);
+  double sum = 0;
+  int count = 0;
+  for (int dy = -stride; dy <= stride; dy += stride) {
+    for (int dx = -stride; dx <= stride; dx += stride) {
+      if (!depth.contains(x + dx, y + dy)) continue;
+      const double there = depth.at(x + dx, y + dy);
+      if (there <= 0.0 || std::abs(there - here) > jump) continue;
+      sum += focal_baseline / there;
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
 // A standard normal field is above this value on a share of the image (a logistic fit of the normal quantile, good to
 // 0.02 for shares in 0.02 .. 0.98).
 float thresholdForShare(double share) {
@@ -146,11 +165,8 @@ void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& r
   const int width = view.depth.width;
   const int height = view.depth.height;
   const double window = std::max(1.5, n.window_px * scale);
-  const double wobble = std::max(1.0, 0.6 * window);
-  shift_x_.draw(width, height, wobble, random);
-  shift_y_.draw(width, height, wobble, random);
-  error_.draw(width, height, window, random);
-  dropout_.draw(width, height, wobble, random);
+  const int stride = std::max(1, static_cast<int>(std::lround(window / 3.0)));
+  for (SmoothNoise* field : {&shift_x_, &shift_y_, &error_, &dropout_}) field->draw(width, height, window, random);
   const double lateral = n.lateral_noise_px * scale;
   const double focal_baseline = n.focal_px * n.baseline_m;
   const float edge_threshold = thresholdForShare(n.edge_dropout);
@@ -167,12 +183,14 @@ void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& r
       const float drop = dropout_.at(x, y);
       const bool head = view.parts.at(sx, sy) == static_cast<std::uint8_t>(Part::Head);
       if (cosine < n.grazing_cos * (1.0 + 0.5 * drop)) continue;
-      if (head && cosine < 0.7F && drop > hair_threshold) continue;
+      if (head && cosine < n.hair_cos && drop > hair_threshold) continue;
       if (drop > edge_threshold && lookAround(view.depth, sx, sy).edge) continue;
 
       const double slant = 1.0 / std::max(0.3, static_cast<double>(cosine));
       const double noise = slant * (n.window_noise_px * error_.at(x, y) + n.pixel_noise_px * random.normal());
-      const double disparity = std::round((focal_baseline / clean + noise) / n.disparity_step_px) * n.disparity_step_px;
+      const double disparity =
+          std::round((windowDisparity(view.depth, sx, sy, stride, focal_baseline) + noise) / n.disparity_step_px) *
+          n.disparity_step_px;
       const double measured = disparity > 0.0 ? focal_baseline / disparity : 0.0;
       if (measured < n.min_depth_m || measured > n.max_depth_m) continue;
       depth.at(x, y) = toWholeMillimetres(measured);

@@ -26,12 +26,13 @@ struct Kinect1Noise {
   double focal_px = 575.8;           // [px] of the matcher, whatever the size of the image handed out
   double disparity_step_px = 0.125;  // [px] depth steps of 2.9 mm at 1 m, 72 mm at 5 m
   double window_noise_px = 0.035;    // [px] disparity noise with the window's correlation, standard deviation
-  double pixel_noise_px = 0.012;     // [px] disparity noise of single pixels
+  double pixel_noise_px = 0.006;     // [px] disparity noise of single pixels
   double window_px = 8.0;            // [px] correlation length of the matching window
   double lateral_noise_px = 0.8;     // [px] wobble of silhouettes
   double grazing_cos = 0.12;         // surfaces seen flatter than this give no match
   double edge_dropout = 0.15;        // [0, 1] share of the pixels at a depth edge that give no match
-  double hair_dropout = 0.25;        // [0, 1] share of the obliquely seen pixels of the head that give no match
+  double hair_cos = 0.5;             // hair is the surface of the head that is seen flatter than this
+  double hair_dropout = 0.25;        // [0, 1] share of the hair that gives no match
   double holes = 3.0;                // mean number of holes in a 640x480 image full of surface
   double min_depth_m = 0.5;          // [m]
   double max_depth_m = 8.0;          // [m]

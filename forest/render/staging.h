@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "libtracker/body/body_surface.h"
+#include "libtracker/skeleton/motion_clip.h"
+
+namespace depthmocap {
+
+// Where an actor performs in front of a camera that stands level.
+struct StagingConfig {
+  double yaw = 0;                 // [rad] heading in the first frame: 0 faces the camera, positive turns to its right
+  double distance_m = 2.7;        // [m] (> 0) camera to the middle of the path, along the floor
+  double camera_height_m = 0.95;  // [m] (> 0) above the floor
+};
+
+// A motion in the camera's default world (uprightWorldFromCamera): y up, z towards the camera, the camera at the
+// origin.
+struct StagedMotion {
+  std::vector<Pose> poses;
+  double floor_y = 0;  // [m] height of the floor, negative
+};
+
+// Puts a motion on a body and in front of the camera. Angles are kept; the path is scaled by the ratio of the leg
+// lengths and turned so that the first frame's heading is `yaw`; the middle of its extent lies on the optical axis at
+// distance_m. The lowest foot is as far above the floor as the performer's was (scaled), so that what stood still
+// stands and what jumped jumps. Throws Error where the clip is empty or a setting is out of range.
+StagedMotion stageMotion(const MotionClip& clip, const BodySurface& body, const StagingConfig& config);
+
+}  // namespace depthmocap

@@ -1,0 +1,100 @@
+#include "forest/render/training_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libtracker/body/pose_surface.h"
+
+namespace depthmocap {
+namespace {
+
+struct Bounds {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+};
+
+Bounds boundsOf(const std::vector<Eigen::Vector3f>& vertices) {
+  Eigen::Array3f low = vertices.front().array();
+  Eigen::Array3f high = low;
+  for (const Eigen::Vector3f& v : vertices) {
+    low = low.min(v.array());
+    high = high.max(v.array());
+  }
+  return {low.matrix().cast<double>(), high.matrix().cast<double>()};
+}
+
+// Where the middle of something `size` [rad] wide goes in a view of `field` [rad]: anywhere that keeps it inside, or,
+// where it does not fit, anywhere that keeps the view filled.
+double randomOffset(double field, double size, Random& random) {
+  const double slack = 0.5 * std::abs(field - size);
+  return random.uniform(-slack, slack);
+}
+
+}  // namespace
+
+void TrainingViewRenderer::render(const BodySurface& body, const Pose& q, Random& random, TrainingView& view) {
+  drawCamera(random, view);
+  placeActor(body, q, random, view);
+  renderer_.setBody(vertices_, body.triangles, body.part);
+  SensorModel& sensor = view.sensor == SensorKind::Kinect1 ? kinect1_ : kinect2_;
+  const bool noisy = random.uniform() < config_.noise_share;
+  renderer_.render(view.camera, view.T_camera_world, noisy ? sensor.renderOptions() : RenderOptions{}, clean_);
+  if (noisy) {
+    sensor.apply(clean_, view.camera, random, view.depth, view.parts);
+  } else {
+    view.depth = clean_.depth;
+    view.parts = clean_.parts;
+  }
+}
+
+void TrainingViewRenderer::drawCamera(Random& random, TrainingView& view) const {
+  const double choice = random.uniform();
+  view.sensor = choice < config_.kinect2_share ? SensorKind::Kinect2 : SensorKind::Kinect1;
+  const bool half_size = view.sensor == SensorKind::Kinect1 && choice < config_.kinect2_share + config_.half_size_share;
+  view.camera = sensorCamera(view.sensor, half_size);
+  view.camera.fx *= random.uniform(config_.min_focal_scale, config_.max_focal_scale);
+  view.camera.fy = view.camera.fx;
+}
+
+void TrainingViewRenderer::placeActor(const BodySurface& body, const Pose& q, Random& random, TrainingView& view) {
+  const bool facing = random.uniform() < config_.facing_share;
+  const double range = facing ? config_.facing_range : std::numbers::pi;
+  view.q_world = q;
+  view.q_world[kRootRy] = random.uniform(-range, range);
+  view.q_world.head<3>().setZero();
+  poseSurface(body, view.q_world, vertices_);
+
+  const Bounds bounds = boundsOf(vertices_);
+  const double distance = random.uniform(config_.min_distance_m, config_.max_distance_m);
+  const double field = 2.0 * std::atan(0.5 * view.camera.width / view.camera.fx);
+  const double width = 2.0 * std::atan(0.5 * (bounds.high.x() - bounds.low.x()) / distance);
+  double bearing = randomOffset(field, width, random);
+  if (random.uniform() < config_.cut_share) {
+    bearing = (random.uniform() < 0.5 ? -0.5 : 0.5) * field * random.uniform(0.7, 1.0);
+  }
+  const Eigen::Vector3d middle = 0.5 * (bounds.low + bounds.high);
+  const Eigen::Vector3d root(distance * std::tan(bearing) - middle.x(), -bounds.low.y(), -distance - middle.z());
+  view.q_world.head<3>() = root;
+  for (Eigen::Vector3f& v : vertices_) v += root.cast<float>();
+  aimCamera(distance, random, view);
+}
+
+// The camera stands above the world's origin and looks along -z, tilted so that the actor is in view.
+void TrainingViewRenderer::aimCamera(double distance_m, Random& random, TrainingView& view) const {
+  const Bounds bounds = boundsOf(vertices_);
+  const double height = random.uniform(config_.min_camera_height_m, config_.max_camera_height_m);
+  const double top = std::atan2(bounds.high.y() - height, distance_m);
+  const double bottom = std::atan2(bounds.low.y() - height, distance_m);
+  const double field = 2.0 * std::atan(0.5 * view.camera.height / view.camera.fy);
+  const double aim = 0.5 * (top + bottom) + randomOffset(field, top - bottom, random);
+  const double tilt = std::clamp(aim, -config_.max_tilt, config_.max_tilt);  // up is positive
+  const double roll = random.uniform(-config_.max_roll, config_.max_roll);
+  const Eigen::Matrix3d R_camera_level =
+      (Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(-tilt, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  view.T_camera_world.linear() = R_camera_level * uprightWorldFromCamera();
+  view.T_camera_world.translation() = -(view.T_camera_world.linear() * Eigen::Vector3d(0.0, height, 0.0));
+}
+
+}  // namespace depthmocap
