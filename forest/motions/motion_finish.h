@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "forest/motions/body_frame.h"
+#include "libtracker/core/random.h"
+#include "libtracker/skeleton/dof.h"
+#include "libtracker/skeleton/skeleton.h"
+
+namespace depthmocap {
+
+// What a motion's author hands over.
+struct RawMotion {
+  BodyFrames frames;
+  bool balanced = true;     // the centre of mass is kept over the feet (not when sitting, walking or in the air)
+  double liveliness = 1.0;  // scales the natural noise
+};
+
+// Adds body sway and small unsteadiness, keeps the balance, lowers the pelvis where legs would be too short, and solves
+// every frame. Feet are not disturbed, so planted feet stay planted.
+std::vector<Pose> finishMotion(const Skeleton& skeleton, RawMotion motion, Random& random);
+
+}  // namespace depthmocap

@@ -1,0 +1,43 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "forest/motions/gait.h"
+#include "forest/motions/key_poses.h"
+#include "forest/motions/motion_finish.h"
+
+namespace depthmocap {
+
+// What a recipe works with. Every random choice comes from `random`.
+struct Studio {
+  const Skeleton& skeleton;
+  Random& random;
+  int variant;  // 0, 1, ...
+
+  // A value within +-share of the given one.
+  double near(double value, double share = 0.15) { return value * random.uniform(1.0 - share, 1.0 + share); }
+  // A performance at a random tempo.
+  Performance performance(double spread = 0.03) { return {random.uniform(0.85, 1.2), spread, 1.3 * spread, 0.30}; }
+  BodyFrames play(const KeySequence& sequence, double spread = 0.03) {
+    return playKeys(skeleton, sequence, performance(spread), random);
+  }
+};
+
+struct Recipe {
+  std::string_view name;
+  int variants;  // even ones are performed mirrored
+  RawMotion (*make)(Studio&);
+};
+
+// The motions of each subject, one file each.
+std::span<const Recipe> locomotionRecipes();
+std::span<const Recipe> jumpRecipes();
+std::span<const Recipe> fightingRecipes();
+std::span<const Recipe> gestureRecipes();
+std::span<const Recipe> drawingRecipes();
+std::span<const Recipe> sportsRecipes();
+std::span<const Recipe> everydayRecipes();
+std::span<const Recipe> bodyRecipes();
+std::span<const Recipe> danceRecipes();
+
+}  // namespace depthmocap

@@ -1,0 +1,143 @@
+#include "forest/motions/procedural_motions.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "forest/motions/body_solver.h"
+#include "libtracker/core/error.h"
+#include "libtracker/skeleton/forward_kinematics.h"
+#include "libtracker/skeleton/joint_limits.h"
+
+namespace depthmocap {
+namespace {
+
+const std::vector<MotionClip>& clips() {
+  static const std::vector<MotionClip> all = proceduralMotions(1);
+  return all;
+}
+
+bool startsWith(const std::string& name, std::string_view prefix) {
+  return name.rfind(prefix, 0) == 0;
+}
+bool leavesTheFloor(const MotionClip& clip) {
+  for (const char* prefix : {"run", "jog", "jump", "hop", "skip"}) {
+    if (clip.name.find(prefix) != std::string::npos) return true;
+  }
+  return false;
+}
+bool climbs(const MotionClip& clip) {
+  return clip.name.find("stairs") != std::string::npos || startsWith(clip.name, "climb");
+}
+
+TEST(ProceduralMotions, NamesAreUniqueAndMatchTheClips) {
+  const auto names = proceduralMotionNames();
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  ASSERT_EQ(names.size(), clips().size());
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], clips()[i].name);
+}
+
+TEST(ProceduralMotions, UnknownNameSuggestsANearOne) {
+  try {
+    proceduralMotion("walk_fats", 1);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("walk_fast"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ProceduralMotions, OneMotionIsTheSameAloneAndAmongAll) {
+  for (std::size_t i = 0; i < clips().size(); i += 7) {
+    const MotionClip alone = proceduralMotion(clips()[i].name, 1);
+    ASSERT_EQ(alone.poses.size(), clips()[i].poses.size());
+    for (std::size_t t = 0; t < alone.poses.size(); ++t) ASSERT_EQ(alone.poses[t], clips()[i].poses[t]);
+  }
+}
+
+TEST(ProceduralMotions, AnotherSeedGivesAnotherPerformance) {
+  const MotionClip a = proceduralMotion("walk", 1);
+  const MotionClip b = proceduralMotion("walk", 2);
+  EXPECT_GT((a.poses[10] - b.poses[10]).norm(), 0.05);
+}
+
+TEST(ProceduralMotions, StaysWithinJointLimits) {
+  for (const MotionClip& clip : clips()) {
+    for (std::size_t t = 0; t < clip.poses.size(); ++t) {
+      const Pose& q = clip.poses[t];
+      ASSERT_TRUE(q.allFinite()) << clip.name << " " << t;
+      for (int i = kFirstBodyDof; i < kDofCount; ++i) {
+        ASSERT_GE(q[i], jointLimits().lower[i])
+            << clip.name << " " << t << " " << kDofNames[static_cast<std::size_t>(i)];
+        ASSERT_LE(q[i], jointLimits().upper[i])
+            << clip.name << " " << t << " " << kDofNames[static_cast<std::size_t>(i)];
+      }
+    }
+  }
+}
+
+TEST(ProceduralMotions, MovesAtHumanSpeeds) {
+  constexpr double kFastest = 20.0;     // [rad/s] kicks, punches and swings
+  constexpr double kFastestRoot = 4.5;  // [m/s]
+  for (const MotionClip& clip : clips()) {
+    EXPECT_GE(clip.poses.size(), 40U) << clip.name;
+    for (std::size_t t = 1; t < clip.poses.size(); ++t) {
+      const Pose step = (clip.poses[t] - clip.poses[t - 1]) * clip.fps;
+      int dof = 0;
+      const double speed = step.tail<kDofCount - kFirstRotationDof>().cwiseAbs().maxCoeff(&dof);
+      ASSERT_LT(speed, kFastest) << clip.name << " " << t << " "
+                                 << kDofNames[static_cast<std::size_t>(dof + kFirstRotationDof)];
+      ASSERT_LT(step.head<3>().norm(), kFastestRoot) << clip.name << " " << t;
+    }
+  }
+}
+
+// Lowest point of both soles [m].
+double lowestSole(const Skeleton& skeleton, const Pose& q) {
+  const Sole sole = soleOf(skeleton);
+  ForwardKinematics fk;
+  fk.update(skeleton, q);
+  double lowest = 1e9;
+  for (const Bone foot : {Bone::LeftFoot, Bone::RightFoot}) {
+    for (const Eigen::Vector3d& point : {sole.toe, sole.heel}) {
+      const double below = point == sole.toe ? sole.ball.y() - sole.toe.y() : 0.0;
+      lowest = std::min(lowest, fk.position({foot, point}).y() + below);
+    }
+  }
+  return lowest;
+}
+
+TEST(ProceduralMotions, StandsOnTheFloor) {
+  for (const MotionClip& clip : clips()) {
+    if (climbs(clip)) continue;
+    const Skeleton skeleton = makeSkeleton(clip.lengths);
+    for (std::size_t t = 0; t < clip.poses.size(); ++t) {
+      const double lowest = lowestSole(skeleton, clip.poses[t]);
+      ASSERT_GT(lowest, -0.02) << clip.name << " " << t;
+      ASSERT_LT(lowest, leavesTheFloor(clip) ? 0.8 : 0.02) << clip.name << " " << t;
+    }
+  }
+}
+
+TEST(ProceduralMotions, PlantedToesDoNotSlide) {
+  for (const MotionClip& clip : clips()) {
+    const Skeleton skeleton = makeSkeleton(clip.lengths);
+    const Sole sole = soleOf(skeleton);
+    const double toe_height = sole.toe.y() - sole.ball.y();
+    for (const auto& [toe, ankle] :
+         {std::pair{Joint::LeftToe, Joint::LeftAnkle}, {Joint::RightToe, Joint::RightAnkle}}) {
+      JointPositions last = jointPositions(skeleton, clip.poses[0]);
+      for (std::size_t t = 1; t < clip.poses.size(); ++t) {
+        const JointPositions now = jointPositions(skeleton, clip.poses[t]);
+        const Eigen::Vector3d a = last.col(static_cast<int>(toe));
+        const Eigen::Vector3d b = now.col(static_cast<int>(toe));
+        const bool planted = a.y() < toe_height + 1e-3 && b.y() < toe_height + 1e-3;
+        ASSERT_LT(planted ? (a - b).norm() : 0.0, 0.015) << clip.name << " " << t;
+        last = now;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace depthmocap
