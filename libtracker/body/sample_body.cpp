@@ -27,4 +27,24 @@ BodyShape sampleBodyShape(Random& random) {
   return shape;
 }
 
+MakeHumanShape sampleMakeHumanShape(Random& random) {
+  const auto near_middle = [&](double spread) { return std::clamp(0.5 + spread * random.normal(), 0.0, 1.0); };
+  MakeHumanShape shape;
+  const bool man = random.uniform() < 0.5;
+  const double ambiguity = 0.35 * random.uniform() * random.uniform();
+  shape.male = man ? 1.0 - ambiguity : ambiguity;
+  const double age = random.uniform();
+  shape.age_years = 25.0 + 60.0 * age * age;
+  shape.muscle = near_middle(0.22);
+  // The macro's lower end is starved and its upper end only stout: shift to the stout side.
+  shape.weight = std::clamp(0.62 + 0.25 * random.normal(), 0.2, 1.0);
+  shape.height = near_middle(0.20);
+  shape.proportions = near_middle(0.25);
+  shape.african = random.uniform() * random.uniform();
+  shape.asian = random.uniform() * random.uniform();
+  shape.caucasian = 0.05 + random.uniform() * random.uniform();
+  shape.stature_m = sampleStature(random, man ? Sex::Male : Sex::Female);
+  return shape;
+}
+
 }  // namespace depthmocap

@@ -1,5 +1,6 @@
 #pragma once
 #include "libtracker/body/body_surface.h"
+#include "libtracker/body/makehuman_model.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {
@@ -7,5 +8,8 @@ namespace depthmocap {
 // A random adult: half of each sex, statures and body mass indices spread as in Western surveys (1.50 .. 2.00 m,
 // BMI 17 .. 36), clipped to those ranges.
 BodyShape sampleBodyShape(Random& random);
+
+// The same for MakeHuman's macros: mostly clear sexes, ages 25 .. 85, mixed races, statures as above.
+MakeHumanShape sampleMakeHumanShape(Random& random);
 
 }  // namespace depthmocap
