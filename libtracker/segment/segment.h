@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 
 #include "libtracker/core/camera.h"
@@ -8,22 +9,49 @@
 namespace depthmocap {
 
 struct SegmentConfig {
-  double min_depth_m = 0.4;         // [m] nearer measurements are dropped
-  double max_depth_m = 6.0;         // [m] farther ones too
-  double floor_distance_m = 0.05;   // [m] within this distance of the floor plane is floor
-  double cluster_gap_m = 0.10;      // [m] points farther apart belong to different clusters
-  double min_height_m = 0.5;        // [m] (a person's cluster is at least this tall, unless cut by the image border)
-  double max_height_m = 2.4;        // [m]
-  int min_pixels = 400;             // [px] at 320x240; scaled with the image
+  double min_depth_m = 0.4;        // [m] (>= 0) nearer measurements are dropped
+  double max_depth_m = 6.0;        // [m] (> min_depth_m) farther ones too
+  double floor_distance_m = 0.05;  // [m] (> 0) within this distance of the floor plane is floor
+  double cluster_gap_m = 0.10;     // [m] (> 0) points farther apart belong to different clusters
+  double min_height_m = 0.5;       // [m] (> 0) a person's cluster is at least this tall, unless cut by the image border
+  double max_height_m = 2.4;       // [m] (> min_height_m)
+  int min_pixels = 400;            // [px] (>= 1) at 320x240; scaled with the image
+  int plane_interval = 30;         // [frames] (>= 1) the floor and the walls are looked for again after so many
+  // Throws Error naming field, value and rule.
   void validate() const;
 };
 
 struct Segmentation {
-  MaskImage mask;            // 1 on the actor; empty actor = all 0
-  int pixel_count = 0;       // [px] in the mask
+  MaskImage mask;       // 1 on the actor; empty actor = all 0
+  int pixel_count = 0;  // [px] in the mask
   bool touches_border = false;
   Eigen::Vector3d centroid_camera = Eigen::Vector3d::Zero();  // [m]
   std::optional<Eigen::Vector4d> floor_camera;  // plane n.p + d = 0, |n| = 1, n away from the floor (up); if seen
+};
+
+// Finds the actor's pixels. A recording whose background is already removed is recognised (see looksCutOut) and keeps
+// all of one person; otherwise floor and walls (RANSAC planes, PCL) are removed, what is left is clustered, and the
+// cluster most like a person, or nearest to the prediction, is taken. Detached pieces that fit (a hand before the body,
+// a leg behind an arm) join it. Floor and walls are kept from frame to frame: one object per recording, frames in
+// order; the result depends on nothing else. The camera is upright within 25 degrees. Not thread-safe.
+class Segmenter {
+ public:
+  // Throws Error for an invalid config.
+  explicit Segmenter(const SegmentConfig& config);
+  ~Segmenter();
+  Segmenter(Segmenter&&) noexcept;
+  Segmenter& operator=(Segmenter&&) noexcept;
+
+  // `depth` has the camera's size. `predicted_centroid_camera` [m] (null = none) says where the actor is expected.
+  // Reuses the memory of `out`.
+  void segment(const DepthImage& depth, const CameraModel& camera, const Eigen::Vector3d* predicted_centroid_camera,
+               Segmentation& out);
+  // Forgets floor and walls, as for a new recording.
+  void reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace depthmocap

@@ -1,0 +1,54 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "libtracker/segment/coarse_cloud.h"
+
+namespace depthmocap {
+
+// One connected piece of surface. Heights are along the up direction that was given, [m].
+struct Component {
+  int cells = 0;
+  float area_m2 = 0;                               // [m^2] facing the camera
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  // camera frame [m]
+  Eigen::Vector3f low = Eigen::Vector3f::Zero();   // bounding box in the camera frame [m]
+  Eigen::Vector3f high = Eigen::Vector3f::Zero();
+  float bottom_m = 0;
+  float top_m = 0;
+  float thickness_m = 0;  // standard deviation across its best plane
+  bool touches_border = false;
+
+  [[nodiscard]] float height() const { return top_m - bottom_m; }
+  [[nodiscard]] float widthX() const { return high.x() - low.x(); }
+  [[nodiscard]] float depthZ() const { return high.z() - low.z(); }
+};
+
+inline constexpr std::int32_t kNoComponent = -1;
+
+// Connected components of a coarse cloud. Keeps its memory from frame to frame.
+class ComponentFinder {
+ public:
+  // Neighbouring cells (also across one missing cell) are connected when their points are at most gap_m apart; the gap
+  // grows with the depth beyond 3 m as the sensors' depth steps do. Cells with keep[i] == 0 take no part. `up`: unit,
+  // camera frame.
+  void find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m, const Eigen::Vector3f& up);
+
+  [[nodiscard]] const std::vector<Component>& components() const { return components_; }
+  [[nodiscard]] const std::vector<std::int32_t>& labels() const {
+    return labels_;
+  }  // a cell's component or kNoComponent
+
+ private:
+  std::int32_t root(std::int32_t cell);
+  void connectCells(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, float gap_m);
+  void numberComponents();
+  void measure(const CoarseCloud& cloud, const Eigen::Vector3f& up);
+
+  std::vector<std::int32_t> parent_;
+  std::vector<std::int32_t> labels_;
+  std::vector<Component> components_;
+  std::vector<Eigen::Matrix3d> moments_;
+};
+
+}  // namespace depthmocap

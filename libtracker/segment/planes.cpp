@@ -1,0 +1,214 @@
+#include "libtracker/segment/planes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <pcl/ModelCoefficients.h>
+#include <pcl/PointIndices.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/segmentation/sac_segmentation.h>
+
+namespace depthmocap {
+
+namespace {
+
+constexpr double kMaxTilt_rad = 25.0 * std::numbers::pi / 180.0;
+constexpr double kMaxWallTilt_rad = 10.0 * std::numbers::pi / 180.0;
+constexpr float kFloorNormal = 0.80F;  // cosine to the assumed up from which a cell may be floor: 25 degrees and noise
+constexpr float kWallNormal = 0.35F;   // sine of a wall cell's tilt, at most
+constexpr int kMaxPoints = 3000;       // for RANSAC
+constexpr int kMaxIterations = 150;
+constexpr int kMaxFloorTries = 3;        // table, platform, floor
+constexpr double kMinFloorShare = 0.02;  // of the measured cells
+constexpr float kMinCameraHeight_m = 0.2F;
+constexpr float kMinWallArea_m2 = 1.2F;
+constexpr float kMinWallWidth_m = 1.0F;
+constexpr int kMaxWallTries = 4;
+constexpr int kNormalReach = 2;  // [cells] between the points that span a cell's local plane
+constexpr float kMaxNormalSpan_m = 0.25F;
+
+using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
+
+float distanceTo(const Eigen::Vector4f& plane, const Eigen::Vector3f& p) {
+  return plane.head<3>().dot(p) + plane[3];
+}
+
+// Unit normal towards the camera of the surface around a cell; zero where the surface is broken.
+Eigen::Vector3f cellNormal(const CoarseCloud& cloud, int x, int y) {
+  const Eigen::Vector3f& p = cloud.points[cloud.index(x, y)];
+  const Eigen::Vector3f& left = cloud.points[cloud.index(x - kNormalReach, y)];
+  const Eigen::Vector3f& right = cloud.points[cloud.index(x + kNormalReach, y)];
+  const Eigen::Vector3f& above = cloud.points[cloud.index(x, y - kNormalReach)];
+  const Eigen::Vector3f& below = cloud.points[cloud.index(x, y + kNormalReach)];
+  for (const Eigen::Vector3f* q : {&left, &right, &above, &below}) {
+    if (!(q->z() > 0) || (*q - p).norm() > kMaxNormalSpan_m * std::max(1.0F, p.z() / 3.0F))
+      return Eigen::Vector3f::Zero();
+  }
+  const Eigen::Vector3f normal = (below - above).cross(right - left);
+  const float length = normal.norm();
+  if (!(length > 0)) return Eigen::Vector3f::Zero();
+  return normal.dot(p) > 0 ? Eigen::Vector3f(-normal / length) : Eigen::Vector3f(normal / length);
+}
+
+}  // namespace
+
+struct PlaneFinder::Impl {
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<std::size_t> candidates;
+  std::vector<std::uint8_t> keep;
+  PclCloud::Ptr points = std::make_shared<PclCloud>();
+  pcl::PointIndices inliers;
+  pcl::ModelCoefficients coefficients;
+
+  void computeNormals(const CoarseCloud& cloud);
+  template <typename Accept>
+  void collect(const CoarseCloud& cloud, Accept&& accept);
+  bool fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis, double distance_m,
+           Eigen::Vector4f& plane);
+  std::optional<Eigen::Vector4f> findFloor(const CoarseCloud& cloud, double distance_m);
+  void findWalls(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes);
+  bool boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, double distance_m, Wall& wall) const;
+};
+
+PlaneFinder::PlaneFinder() : impl_(std::make_unique<Impl>()) {}
+PlaneFinder::~PlaneFinder() = default;
+
+void PlaneFinder::Impl::computeNormals(const CoarseCloud& cloud) {
+  normals.assign(cloud.points.size(), Eigen::Vector3f::Zero());
+  for (int y = kNormalReach; y + kNormalReach < cloud.height; ++y) {
+    for (int x = kNormalReach; x + kNormalReach < cloud.width; ++x) {
+      const std::size_t i = cloud.index(x, y);
+      if (cloud.points[i].z() > 0) normals[i] = cellNormal(cloud, x, y);
+    }
+  }
+}
+
+template <typename Accept>
+void PlaneFinder::Impl::collect(const CoarseCloud& cloud, Accept&& accept) {
+  candidates.clear();
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.points[i].z() > 0 && normals[i].squaredNorm() > 0 && accept(i)) candidates.push_back(i);
+  }
+}
+
+bool PlaneFinder::Impl::fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis,
+                            double distance_m, Eigen::Vector4f& plane) {
+  const std::size_t step = (candidates.size() + kMaxPoints - 1) / kMaxPoints;
+  points->clear();
+  for (std::size_t k = 0; k < candidates.size(); k += step) {
+    const Eigen::Vector3f& p = cloud.points[candidates[k]];
+    points->push_back(pcl::PointXYZ(p.x(), p.y(), p.z()));
+  }
+  if (points->size() < 50) return false;
+  pcl::SACSegmentation<pcl::PointXYZ> segmentation(false);  // false: PCL's fixed seed
+  segmentation.setModelType(model);
+  segmentation.setMethodType(pcl::SAC_RANSAC);
+  segmentation.setOptimizeCoefficients(true);
+  segmentation.setMaxIterations(kMaxIterations);
+  segmentation.setDistanceThreshold(distance_m);
+  segmentation.setAxis(axis);
+  segmentation.setEpsAngle(max_angle_rad);
+  segmentation.setInputCloud(points);
+  segmentation.segment(inliers, coefficients);
+  if (inliers.indices.size() < 50 || coefficients.values.size() != 4) return false;
+  plane = Eigen::Map<const Eigen::Vector4f>(coefficients.values.data());
+  plane /= plane.head<3>().norm();
+  if (plane[3] < 0) plane = -plane;  // the normal points to the camera's side
+  return plane.allFinite();
+}
+
+// A plane with much below it is a table: look again among what lies below.
+std::optional<Eigen::Vector4f> PlaneFinder::Impl::findFloor(const CoarseCloud& cloud, double distance_m) {
+  const Eigen::Vector3f assumed_up(0, -1, 0);
+  std::optional<Eigen::Vector4f> floor;
+  for (int attempt = 0; attempt < kMaxFloorTries; ++attempt) {
+    collect(cloud, [&](std::size_t i) {
+      const bool below =
+          !floor || distanceTo(*floor, cloud.points[i]) < -3 * planeTolerance(distance_m, cloud.points[i].z());
+      return below && normals[i].dot(assumed_up) > kFloorNormal;
+    });
+    if (static_cast<double>(candidates.size()) < kMinFloorShare * cloud.valid_count) break;
+    Eigen::Vector4f plane;
+    if (!fit(cloud, pcl::SACMODEL_PERPENDICULAR_PLANE, kMaxTilt_rad, assumed_up, 0.6 * distance_m, plane)) break;
+    const bool is_below_camera = plane.head<3>().dot(assumed_up) > 0 && plane[3] > kMinCameraHeight_m;
+    if (!is_below_camera || floorShare(cloud, plane, distance_m) < kMinFloorShare) break;
+    floor = plane;
+  }
+  return floor;
+}
+
+// Ends of the wall: the 1st and 99th hundredth of its points, so that a stray inlier does not lengthen it.
+bool PlaneFinder::Impl::boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, double distance_m,
+                                  Wall& wall) const {
+  const Eigen::Vector3f normal = wall.plane.head<3>();
+  wall.along = up.cross(normal).normalized();
+  std::vector<float> positions;
+  float area = 0;
+  for (const std::size_t i : candidates) {
+    const Eigen::Vector3f& p = cloud.points[i];
+    if (std::abs(distanceTo(wall.plane, p)) > planeTolerance(distance_m, p.z()) || normals[i].dot(normal) < 0.85F)
+      continue;
+    positions.push_back(wall.along.dot(p));
+    const float slant = std::max(0.2F, std::abs(normal.dot(p.normalized())));
+    area += cloud.cellArea(p.z()) / slant;
+  }
+  if (area < kMinWallArea_m2) return false;
+  std::sort(positions.begin(), positions.end());
+  wall.low = positions[positions.size() / 100] - 0.1F;
+  wall.high = positions[positions.size() - 1 - positions.size() / 100] + 0.1F;
+  return wall.high - wall.low > kMinWallWidth_m;
+}
+
+// A plane too small for a wall (a cupboard's door) is set aside, so that the next try finds what lies beside it.
+void PlaneFinder::Impl::findWalls(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes) {
+  const Eigen::Vector3f up = planes.floor ? Eigen::Vector3f(planes.floor->head<3>()) : Eigen::Vector3f(0, -1, 0);
+  keepOffPlanes(cloud, planes, distance_m, keep);
+  for (int attempt = 0; attempt < kMaxWallTries; ++attempt) {
+    collect(cloud, [&](std::size_t i) { return keep[i] != 0 && std::abs(normals[i].dot(up)) < kWallNormal; });
+    Wall wall;
+    if (!fit(cloud, pcl::SACMODEL_PARALLEL_PLANE, kMaxWallTilt_rad, up, 0.6 * distance_m, wall.plane)) return;
+    if (boundWall(cloud, up, distance_m, wall)) planes.walls.push_back(wall);
+    for (const std::size_t i : candidates) {
+      const Eigen::Vector3f& p = cloud.points[i];
+      if (std::abs(distanceTo(wall.plane, p)) <= planeTolerance(distance_m, p.z())) keep[i] = 0;
+    }
+  }
+}
+
+void PlaneFinder::find(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes) {
+  planes.walls.clear();
+  impl_->computeNormals(cloud);
+  planes.floor = impl_->findFloor(cloud, distance_m);
+  impl_->findWalls(cloud, distance_m, planes);
+}
+
+void keepOffPlanes(const CoarseCloud& cloud, const RoomPlanes& planes, double distance_m,
+                   std::vector<std::uint8_t>& keep) {
+  keep.resize(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Eigen::Vector3f& p = cloud.points[i];
+    const float tolerance = planeTolerance(distance_m, p.z());
+    bool off = p.z() > 0;
+    if (off && planes.floor) off = distanceTo(*planes.floor, p) > tolerance;
+    for (const Wall& wall : planes.walls) {
+      if (!off) break;
+      const float t = wall.along.dot(p);
+      off = std::abs(distanceTo(wall.plane, p)) > tolerance || t < wall.low || t > wall.high;
+    }
+    keep[i] = off ? 1 : 0;
+  }
+}
+
+double floorShare(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) {
+  if (cloud.valid_count == 0) return 0;
+  int on_floor = 0;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.z() > 0 && std::abs(distanceTo(floor, p)) <= planeTolerance(distance_m, p.z())) ++on_floor;
+  }
+  return static_cast<double>(on_floor) / cloud.valid_count;
+}
+
+}  // namespace depthmocap

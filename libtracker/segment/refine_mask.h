@@ -1,0 +1,30 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "libtracker/core/camera.h"
+#include "libtracker/core/image.h"
+#include "libtracker/segment/coarse_cloud.h"
+#include "libtracker/segment/components.h"
+
+namespace depthmocap {
+
+// What decides about one pixel beside the coarse answer.
+struct RefineLimits {
+  double min_depth_m = 0;
+  double max_depth_m = 0;
+  double gap_m = 0;
+  double floor_distance_m = 0;
+  std::optional<Eigen::Vector4f> floor;  // camera frame
+};
+
+// Full-resolution mask from the coarse answer: a pixel takes the side of the surrounding cell that is nearest in depth,
+// if one lies within the gap; pixels that no cell speaks for (thin fingers) then join neighbours in the mask. `labels`
+// holds each cell's component, `selected` 1 for the actor's components.
+void refineMask(const DepthImage& depth, const CameraModel& camera, const CoarseCloud& cloud,
+                const std::vector<std::int32_t>& labels, const std::vector<std::uint8_t>& selected,
+                const RefineLimits& limits, MaskImage& mask);
+
+}  // namespace depthmocap

@@ -1,0 +1,223 @@
+#include "libtracker/segment/segment.h"
+
+#include <gtest/gtest.h>
+
+#include "libtracker/core/error.h"
+#include "tests/unit/segment/test_scene.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr int kActor = 1;
+constexpr int kOther = 2;
+constexpr int kRoom = 3;
+constexpr double kCameraHeight = 1.1;
+
+const Eigen::Vector3d kFeet(0.1, kCameraHeight, 2.7);
+
+void addRoom(TestScene& scene) {
+  scene.noise = 0.0015;
+  scene.addPlane(kRoom, {0, -1, 0, kCameraHeight});
+  scene.addPlane(kRoom, {0, 0, -1, 4.5});
+  scene.addPlane(kRoom, {1, 0, 0, 2.0});
+}
+
+Segmentation segmentOnce(const TestScene& scene, const Eigen::Vector3d* predicted = nullptr) {
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(scene.render(), scene.camera, predicted, result);
+  return result;
+}
+
+TEST(Segment, RemovedBackgroundKeepsEveryPixelOfThePerson) {
+  TestScene scene;
+  scene.addPerson(kActor, kFeet);
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.999);
+  EXPECT_FALSE(result.floor_camera.has_value());
+  EXPECT_FALSE(result.touches_border);
+  EXPECT_LT((result.centroid_camera - Eigen::Vector3d(0.1, 0.1, 2.6)).norm(), 0.15);
+}
+
+TEST(Segment, SpecklesAreDroppedAndThePixelCountIsOfTheMask) {
+  TestScene scene;
+  scene.addPerson(kActor, kFeet);
+  Image<int> objects;
+  DepthImage depth = scene.render(&objects);
+  for (int i = 0; i < 40; ++i) depth.at(10 + (i * 15) % 600, 20 + i % 2) = 3.0F;
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.999);
+  int count = 0;
+  for (const auto value : result.mask.data) count += value;
+  EXPECT_EQ(count, result.pixel_count);
+}
+
+TEST(Segment, HandCutOffFromTheBodyBelongsToIt) {
+  TestScene scene;
+  scene.addPerson(kActor, kFeet);
+  scene.addEllipsoid(kActor, kFeet + Eigen::Vector3d(0.3, -1.25, -0.55), {0.06, 0.08, 0.05});
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.999);
+}
+
+TEST(Segment, NearerOfTwoPeopleIsTheActor) {
+  TestScene scene;
+  scene.addPerson(kActor, kFeet);
+  scene.addPerson(kOther, kFeet + Eigen::Vector3d(0.35, 0, 1.0));
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.99);
+}
+
+TEST(Segment, PredictionSelectsTheOtherPerson) {
+  TestScene scene;
+  scene.addPerson(kActor, kFeet);
+  scene.addPerson(kOther, kFeet + Eigen::Vector3d(0.8, 0, 0.9));
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  const Eigen::Vector3d predicted = kFeet + Eigen::Vector3d(0.75, -0.9, 0.8);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, &predicted, result);
+  EXPECT_GT(overlap(result.mask, objects, kOther), 0.99);
+}
+
+TEST(Segment, RoomIsRemovedAndTheFloorFound) {
+  TestScene scene;
+  addRoom(scene);
+  scene.addPerson(kActor, kFeet);
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.95);  // the soles lie within the floor's tolerance
+  ASSERT_TRUE(result.floor_camera.has_value());
+  EXPECT_LT((result.floor_camera->head<3>() - Eigen::Vector3d(0, -1, 0)).norm(), 0.01);
+  EXPECT_NEAR(result.floor_camera->w(), kCameraHeight, 0.01);
+}
+
+TEST(Segment, FloorOfATiltedCamera) {
+  TestScene scene;
+  const double tilt = 0.3;
+  const Eigen::Vector3d up(0, -std::cos(tilt), -std::sin(tilt));
+  scene.noise = 0.0015;
+  scene.addPlane(kRoom, {up.x(), up.y(), up.z(), 1.6});
+  const Eigen::Vector3d on_axis(0, 0, 2.6);
+  const Eigen::Vector3d feet = on_axis - (up.dot(on_axis) + 1.6) * up;
+  scene.addPerson(kActor, feet, up);
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  ASSERT_TRUE(result.floor_camera.has_value());
+  EXPECT_LT((result.floor_camera->head<3>() - up).norm(), 0.01);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.93);
+}
+
+TEST(Segment, CupboardsAndTablesAreNotTheActor) {
+  TestScene scene;
+  addRoom(scene);
+  scene.addPerson(kActor, kFeet + Eigen::Vector3d(0.4, 0, 0.6));
+  scene.addPanel(kRoom, {-0.7, 0.2, 2.0}, 0.3, 0.88);  // a cupboard's door, nearer than the actor
+  scene.addEllipsoid(kRoom, {1.3, kCameraHeight - 0.25, 2.2}, {0.3, 0.2, 0.3});  // a stool
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.95);
+}
+
+TEST(Segment, EmptyRoomHasNoActor) {
+  TestScene scene;
+  addRoom(scene);
+  EXPECT_EQ(segmentOnce(scene).pixel_count, 0);
+}
+
+TEST(Segment, UnmeasuredImageGivesAnEmptyMask) {
+  const TestScene scene;
+  const Segmentation result = segmentOnce(scene);
+  EXPECT_EQ(result.pixel_count, 0);
+  EXPECT_EQ(result.mask.width, 640);
+  EXPECT_EQ(result.centroid_camera, Eigen::Vector3d::Zero());
+}
+
+TEST(Segment, ActorLeavingTheImageTouchesTheBorder) {
+  TestScene scene;
+  scene.addPerson(kActor, {0.0, 1.5, 1.3});
+  const Segmentation result = segmentOnce(scene);
+  EXPECT_TRUE(result.touches_border);
+  EXPECT_GT(result.pixel_count, 10000);
+}
+
+TEST(Segment, MovedCameraIsNoticed) {
+  TestScene before;
+  addRoom(before);
+  before.addPerson(kActor, kFeet);
+  TestScene after;
+  after.noise = 0.0015;
+  after.addPlane(kRoom, {0, -1, 0, 1.5});
+  after.addPlane(kRoom, {0, 0, -1, 4.2});
+  after.addPerson(kActor, {0.1, 1.5, 2.6});
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(before.render(), before.camera, nullptr, result);
+  segmenter.segment(after.render(), after.camera, nullptr, result);
+  ASSERT_TRUE(result.floor_camera.has_value());
+  EXPECT_NEAR(result.floor_camera->w(), 1.5, 0.01);
+}
+
+TEST(Segment, SameFramesGiveTheSameMasks) {
+  TestScene scene;
+  addRoom(scene);
+  scene.addPerson(kActor, kFeet);
+  const Segmentation first = segmentOnce(scene);
+  const Segmentation second = segmentOnce(scene);
+  EXPECT_EQ(first.mask.data, second.mask.data);
+  EXPECT_EQ(*first.floor_camera, *second.floor_camera);
+}
+
+TEST(Segment, OddImageSizesWork) {
+  TestScene scene;
+  scene.camera.width = 211;
+  scene.camera.height = 157;
+  scene.camera.fx = scene.camera.fy = 175.0;
+  scene.camera.cx = 105.0;
+  scene.camera.cy = 78.0;
+  scene.addPerson(kActor, kFeet);
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.995);
+}
+
+TEST(SegmentConfig, ErrorNamesFieldAndRule) {
+  SegmentConfig config;
+  config.max_depth_m = 0.1;
+  try {
+    Segmenter segmenter(config);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("max_depth_m must be > min_depth_m"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace depthmocap
