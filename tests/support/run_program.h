@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdlib>
+#include <string>
+
+#include <sys/wait.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace depthmocap {
+
+struct ProgramResult {
+  int exit_code = -1;  // -1: ended by a signal
+  std::string output;  // stdout
+  std::string errors;  // stderr
+};
+
+// Runs the built program with arguments as a shell takes them.
+inline ProgramResult runProgram(const std::string& arguments) {
+  const TemporaryFolder folder;
+  const std::string command = "\"" DEPTHMOCAP_PROGRAM "\" " + arguments + " >'" + (folder / "out").string() + "' 2>'" +
+                              (folder / "err").string() + "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(folder / "out"), readBytes(folder / "err")};
+}
+
+}  // namespace depthmocap
