@@ -8,6 +8,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Fillet between two limb segments that already meet flush: a wide one would swell the joint. [m at 1.75 m]
+constexpr double kJointBlend = 0.006;
+
 // Builds the masses of one body. Tables below are in metres for an adult of 1.75 m (girths after ANSUR 1988); u scales
 // them to this body. Heights along the trunk are shares of the bone lengths, so that the surface follows the skeleton.
 class Anatomist {
@@ -40,7 +43,10 @@ class Anatomist {
  private:
   [[nodiscard]] double pick(double male, double female) const { return female_ ? female : male; }
   // Growth factor of a region whose rate at fatness 1 is `rate`.
-  [[nodiscard]] double grown(double rate) const { return std::max(0.6, 1.0 + rate * fat_); }
+  // Thin people are thin all over: below the lean adult the rates come together.
+  [[nodiscard]] double grown(double rate) const {
+    return std::max(0.55, fat_ > 0 ? 1.0 + rate * fat_ : 1.0 + (0.35 * rate + 0.22) * fat_);
+  }
   // A table's section: extents scaled to the body and grown by rates for the sides, the front and the back.
   [[nodiscard]] Section section(double t, double outer, double inner, double front, double back, double side_rate,
                                 double front_rate, double back_rate) const {
@@ -112,10 +118,10 @@ void Anatomist::chest() {
   if (female_) {
     const double g = grown(0.45);
     field_.addEllipsoid({0.078 * u_ * grown(0.25), y - 0.012 * u_, 0.078 * u_ * grown(0.25)},
-                        Vector3d(0.060, 0.062, 0.056) * u_ * g, 0.035 * u_);
+                        Vector3d(0.061, 0.060, 0.051) * u_ * g, 0.06 * u_);
   } else {
-    field_.addEllipsoid({0.077 * u_, y + 0.012 * u_, 0.070 * u_ * grown(0.30)},
-                        Vector3d(0.080, 0.060, 0.050) * u_ * grown(0.25), 0.05 * u_);
+    field_.addEllipsoid({0.077 * u_, y + 0.012 * u_, 0.063 * u_ * grown(0.30)},
+                        Vector3d(0.080, 0.060, 0.047) * u_ * grown(0.25), 0.05 * u_);
   }
   // Shoulder blade and the broad muscle of the back that closes the armpit behind; the chest muscle in front.
   const double m = pick(1.0, 0.86) * u_ * grown(0.28);
@@ -155,10 +161,9 @@ void Anatomist::face(const Vector3d& head) {
   const auto at = [&](double x, double y, double z) { return Vector3d(head + Vector3d(x, y, z) * h); };
   field_.addEllipsoid(at(0, -0.030, 0.030), Vector3d(0.062, 0.078, 0.062) * cheek, 0.02 * u_);
   // Jaw: from below the ear to the chin; its breadth tells the sexes apart.
-  field_.addCone(at(0.046, -0.052, -0.002), pick(0.024, 0.021) * cheek, at(0.014, -0.100, 0.068), 0.019 * cheek,
+  field_.addCone(at(0.046, -0.052, -0.002), pick(0.024, 0.021) * cheek, at(0.012, -0.098, 0.064), 0.020 * cheek,
                  0.03 * u_);
-  field_.addCone(at(0, -0.100, 0.072), 0.019 * h, at(0, -0.070, 0.080), 0.018 * h, 0.02 * u_);
-  field_.addCone(at(0, 0.012, 0.090), 0.009 * h, at(0, -0.030, 0.112), 0.013 * h, 0.012 * u_);
+  field_.addCone(at(0, 0.016, 0.084), 0.011 * h, at(0, -0.028, 0.099), 0.015 * h, 0.018 * u_);
   field_.addCone(at(0, 0.022, 0.083), 0.014 * h, at(0.035, 0.020, 0.070), 0.013 * h, 0.02 * u_);
   field_.addEllipsoid(at(0.076, -0.012, -0.010), Vector3d(0.010, 0.031, 0.018) * h, 0.008 * u_);
 }
@@ -183,7 +188,7 @@ void Anatomist::arm() {
                  {lower(-0.05, 0.038, 0.038, 0.039, 0.040, 0.24), lower(0.18, 0.043, 0.040, 0.046, 0.042, 0.27),
                   lower(0.40, 0.040, 0.038, 0.043, 0.041, 0.25), lower(0.65, 0.032, 0.031, 0.036, 0.035, 0.20),
                   lower(0.90, 0.024, 0.023, 0.030, 0.030, 0.12), lower(1.04, 0.022, 0.021, 0.030, 0.030, 0.10)},
-                 0.03 * u_, 0.02 * u_, 2.0, 0.025 * u_);
+                 0.03 * u_, 0.02 * u_, 2.0, kJointBlend * u_);
 }
 
 // Palm down, thumb to the front, fingers together and slightly curled.
@@ -211,11 +216,11 @@ void Anatomist::leg() {
     return section(share * l_.upper_leg, out * m, in * m, front * m, back * m, rate * slow, rate * slow, rate * slow);
   };
   field_.addLoft(hip_, -Vector3d::UnitY(), Vector3d::UnitX(), Vector3d::UnitZ(),
-                 {thigh(-0.08, 0.078, 0.065, 0.078, 0.075, 1.0), thigh(0.08, 0.083, 0.076, 0.086, 0.082, 1.0),
+                 {thigh(-0.08, 0.072, 0.065, 0.074, 0.075, 1.0), thigh(0.08, 0.083, 0.076, 0.086, 0.082, 1.0),
                   thigh(0.22, 0.081, 0.080, 0.088, 0.084, 1.0), thigh(0.40, 0.076, 0.077, 0.085, 0.079, 0.95),
                   thigh(0.60, 0.067, 0.069, 0.077, 0.070, 0.85), thigh(0.80, 0.058, 0.061, 0.066, 0.060, 0.65),
                   thigh(1.00, 0.053, 0.056, 0.058, 0.053, 0.50)},
-                 0.05 * u_, 0.03 * u_, 2.1, 0.05 * u_);
+                 0.09 * u_, 0.03 * u_, 2.1, 0.055 * u_);
   const double w = pick(1.0, 0.98);
   const auto shank = [&](double share, double out, double in, double front, double back, double r) {
     return section(share * l_.lower_leg, out * w, in * w, front * w, back * w, r, r, r);
@@ -225,7 +230,7 @@ void Anatomist::leg() {
                   shank(0.24, 0.055, 0.056, 0.045, 0.069, 0.28), shank(0.38, 0.053, 0.054, 0.041, 0.069, 0.28),
                   shank(0.55, 0.044, 0.044, 0.038, 0.056, 0.22), shank(0.75, 0.034, 0.034, 0.034, 0.042, 0.14),
                   shank(0.92, 0.032, 0.033, 0.037, 0.042, 0.08), shank(1.02, 0.034, 0.035, 0.043, 0.044, 0.05)},
-                 0.03 * u_, 0.03 * u_, 2.0, 0.03 * u_);
+                 0.03 * u_, 0.03 * u_, 2.0, kJointBlend * u_);
   field_.addEllipsoid(knee_ + Vector3d(0, 0.004, 0.034) * u_, Vector3d(0.034, 0.042, 0.028) * u_ * grown(0.1),
                       0.02 * u_);
 }

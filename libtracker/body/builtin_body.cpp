@@ -16,7 +16,7 @@ namespace {
 // Cell of the final grid and of the grids that only measure the volume, as shares of the stature.
 constexpr double kCellPerStature = 0.0072;
 constexpr double kCoarseCellPerStature = 0.018;
-constexpr double kLeanest = -0.7;
+constexpr double kLeanest = -1.2;
 constexpr double kFattest = 4.0;
 
 void validate(const BodyShape& shape) {
@@ -63,8 +63,13 @@ BodySurface makeBuiltinBody(const BodyShape& shape) {
   const BoneLengths lengths = typicalBoneLengths(shape.sex, shape.stature_m);
   body.skeleton = makeSkeleton(lengths);
   const double volume = shape.weight_kg / kBodyDensityKgPerLitre * 1e-3;
-  const double fatness = fatnessFor(shape, lengths, volume);
-  polygonise(makeAnatomy(shape.sex, lengths, shape.stature_m, fatness), kCellPerStature * shape.stature_m, body);
+  // The coarse grid misjudges the volume a little; the first surface shows by how much.
+  double wanted = volume;
+  for (int i = 0; i < 2; ++i) {
+    const double fatness = fatnessFor(shape, lengths, wanted);
+    polygonise(makeAnatomy(shape.sex, lengths, shape.stature_m, fatness), kCellPerStature * shape.stature_m, body);
+    wanted *= volume / enclosedVolume(body.vertices, body.triangles);
+  }
   body.skin.reserve(body.vertices.size());
   for (const Eigen::Vector3f& p : body.vertices) body.skin.push_back(skinOfPoint(body.skeleton, p));
   labelParts(body);

@@ -14,8 +14,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// How far the rig's own T-pose lifts the clavicles out of the A-pose [rad] (tpose.cmu_mb.json: LeftShoulder).
-constexpr double kClavicleLift = 0.36652;
+// How far our T-pose lifts the clavicles out of the A-pose [rad]: less than the rig's own T-pose (0.37), so that the
+// shoulders lie as far below the neck as in an average skeleton and do not look shrugged when the arms hang.
+constexpr double kClavicleLift = 0.10;
+// The rig's neck joint sits within the neck; ours is its base, this share of the way down to the clavicles.
+constexpr double kNeckBaseShare = 0.45;
 // Our pelvis above the hips, crown above the head centre and spine joint, as in an average skeleton.
 constexpr double kHipDropPerStature = 0.017;
 constexpr double kCrownPerNeckToHead = 0.70;
@@ -124,7 +127,9 @@ BoneLengths measure(const APose& pose, const Extent& extent, Vector3d& root) {
   l.hip_width = std::abs(left_hip.x() - right_hip.x());
   l.hip_drop = kHipDropPerStature * (extent.high_y - extent.low_y);
   root = 0.5 * (left_hip + right_hip) + Vector3d(0, l.hip_drop, 0);
-  l.torso = pose.joint("Neck").y() - root.y();
+  const double neck_y = pose.joint("Neck").y();
+  const double clavicle_y = 0.5 * (pose.joint(kSides[0].shoulder) + pose.joint(kSides[1].shoulder)).y();
+  l.torso = neck_y + kNeckBaseShare * (clavicle_y - neck_y) - root.y();
   l.spine = kSpinePerTorso * l.torso;
   l.neck_to_head = (extent.high_y - root.y() - l.torso) / (1.0 + kCrownPerNeckToHead);
   const Vector3d left = liftedClavicle(pose, kSides[0], root) * pose.joint(kSides[0].arm);
