@@ -3,12 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "libtracker/core/error.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 namespace {
+
+constexpr double kHalfBody_m = 0.45;  // what the view leaves free beside the root
 
 double legLength(const BoneLengths& lengths) {
   return lengths.upper_leg + lengths.lower_leg;
@@ -52,11 +55,12 @@ void check(const MotionClip& clip, const BodySurface& body, const StagingConfig&
   if (clip.poses.empty()) throw Error("has no frames", where);
   if (body.vertices.empty()) throw Error("the body has no surface", where);
   if (!(config.distance_m > 0)) throw Error("the distance must be positive", where);
+  if (!(config.half_view > 0)) throw Error("the field of view must be positive", where);
   if (!(config.camera_height_m > 0)) throw Error("the camera's height must be positive", where);
 }
 
-// Moves the path so that the middle of its extent is on the optical axis at the distance.
-void centrePath(std::vector<Pose>& poses, double distance_m) {
+// Moves the path so that the middle of its extent is on the optical axis, at distance 0.
+void centrePath(std::vector<Pose>& poses) {
   Eigen::Array2d low(poses.front()[kRootTx], poses.front()[kRootTz]);
   Eigen::Array2d high = low;
   for (const Pose& q : poses) {
@@ -67,8 +71,43 @@ void centrePath(std::vector<Pose>& poses, double distance_m) {
   const Eigen::Array2d middle = 0.5 * (low + high);
   for (Pose& q : poses) {
     q[kRootTx] -= middle.x();
-    q[kRootTz] -= middle.y() + distance_m;
+    q[kRootTz] -= middle.y();
   }
+}
+
+// How far away the middle of a centred path is to be so that all of it, shortened to a share, lies in view and in
+// range; nothing if there is no such distance.
+std::optional<double> distanceFor(const std::vector<Pose>& poses, double share, const StagingConfig& config) {
+  const double min_distance = std::min(config.min_distance_m, config.distance_m);
+  const double max_distance = std::max(config.max_distance_m, config.distance_m);
+  double distance = config.distance_m;
+  double back = 0;  // of the path behind its middle
+  for (const Pose& q : poses) {
+    const double beside = (share * std::abs(q[kRootTx]) + kHalfBody_m) / config.half_view;
+    distance = std::max(distance, std::max(beside, min_distance) + share * q[kRootTz]);
+    back = std::max(back, -share * q[kRootTz]);
+  }
+  if (distance > config.distance_m && distance + back > max_distance) return std::nullopt;
+  return distance;
+}
+
+// Shortens the path as far as needed and moves it in front of the camera; the share that is left of its length.
+double placePath(std::vector<Pose>& poses, const StagingConfig& config) {
+  constexpr int kSteps = 20;
+  double share = 1.0;
+  double distance = config.distance_m;
+  for (int i = kSteps; i >= 0; --i) {
+    share = static_cast<double>(i) / kSteps;
+    const std::optional<double> found = distanceFor(poses, share, config);
+    if (!found) continue;
+    distance = *found;
+    break;
+  }
+  for (Pose& q : poses) {
+    q[kRootTx] *= share;
+    q[kRootTz] = share * q[kRootTz] - distance;
+  }
+  return share;
 }
 
 }  // namespace
@@ -94,7 +133,8 @@ StagedMotion stageMotion(const MotionClip& clip, const BodySurface& body, const 
     q[kRootTy] += staged.floor_y + above_floor - lowestSole(body.skeleton, q, sole);
     staged.poses.push_back(q);
   }
-  centrePath(staged.poses, config.distance_m);
+  centrePath(staged.poses);
+  staged.path_scale = placePath(staged.poses, config);
   return staged;
 }
 

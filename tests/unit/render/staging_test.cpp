@@ -63,6 +63,29 @@ TEST(Staging, MiddleOfThePathIsOnTheAxisAtTheDistance) {
   }
 }
 
+TEST(Staging, AnApproachEndsBeforeTheCamera) {
+  const StagingConfig config{.distance_m = 2.0};
+  const StagedMotion staged = stageMotion(walkAndJump(), smallWoman(), config);
+  EXPECT_NEAR(-staged.poses.back()[kRootTz], config.min_distance_m, 1e-9);
+  EXPECT_EQ(staged.path_scale, 1.0);
+}
+
+TEST(Staging, APathAcrossIsMovedBackIntoView) {
+  const StagingConfig config{.yaw = std::numbers::pi / 2, .distance_m = 2.0};
+  const StagedMotion staged = stageMotion(walkAndJump(), smallWoman(), config);
+  for (const Pose& q : staged.poses) EXPECT_LT(std::abs(q[kRootTx] / q[kRootTz]), config.half_view);
+  EXPECT_EQ(staged.path_scale, 1.0);
+}
+
+TEST(Staging, APathTooLongForTheRangeIsShortened) {
+  const StagingConfig config{.distance_m = 2.0, .max_distance_m = 2.6};
+  const StagedMotion staged = stageMotion(walkAndJump(), smallWoman(), config);
+  EXPECT_LT(staged.path_scale, 0.7);
+  EXPECT_GT(staged.path_scale, 0.3);
+  EXPECT_GE(-staged.poses.back()[kRootTz], config.min_distance_m - 1e-9);
+  EXPECT_LE(-staged.poses.front()[kRootTz], config.max_distance_m + 1e-9);
+}
+
 TEST(Staging, FeetStandOnTheFloorAndJumpAboveIt) {
   const StagedMotion staged = stageMotion(walkAndJump(), smallWoman(), {.camera_height_m = 1.2});
   EXPECT_DOUBLE_EQ(staged.floor_y, -1.2);

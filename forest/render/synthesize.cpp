@@ -1,0 +1,143 @@
+#include "forest/render/synthesize.h"
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "forest/render/scene.h"
+#include "libtracker/body/pose_surface.h"
+#include "libtracker/core/error.h"
+#include "libtracker/core/parallel.h"
+#include "libtracker/recording/png_file.h"
+#include "libtracker/recording/recording.h"
+#include "libtracker/recording/track_files.h"
+#include "libtracker/skeleton/forward_kinematics.h"
+
+namespace depthmocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFramesAWorker = 4;  // rendered before the writer takes over; bounds the memory
+
+struct RenderedFrame {
+  DepthFrame depth;
+  PartImage parts;
+};
+
+// What one thread needs to render frames.
+class FrameRenderer {
+ public:
+  FrameRenderer(const BodySurface& body, const SynthesisConfig& config, const TriangleMesh& room)
+      : body_(body), config_(config), sensor_(config.sensor) {
+    T_camera_world_.linear() = uprightWorldFromCamera();
+    renderer_.setBackground(room);
+  }
+
+  void render(const Pose& q, RenderedFrame& frame) {
+    poseSurface(body_, q, vertices_);
+    renderer_.setBody(vertices_, body_.triangles, body_.part);
+    renderer_.render(config_.camera, T_camera_world_, config_.noise ? sensor_.renderOptions() : RenderOptions{},
+                     clean_);
+    if (config_.noise) {
+      Random random(config_.seed, static_cast<std::uint64_t>(frame.depth.frame));
+      sensor_.apply(clean_, config_.camera, random, frame.depth.depth, frame.parts);
+    } else {
+      frame.depth.depth = clean_.depth;
+      frame.parts = clean_.parts;
+    }
+  }
+
+ private:
+  const BodySurface& body_;
+  const SynthesisConfig& config_;
+  Eigen::Isometry3d T_camera_world_ = Eigen::Isometry3d::Identity();
+  DepthRenderer renderer_;
+  SensorModel sensor_;
+  RenderedView clean_;
+  std::vector<Eigen::Vector3f> vertices_;
+};
+
+JointsRow truthRow(const Skeleton& skeleton, const Pose& q, const CameraModel& camera, const DepthFrame& frame) {
+  JointsRow row;
+  row.frame = frame.frame;
+  row.time_s = frame.time_s;
+  row.state = TrackState::Tracking;
+  row.p_camera = uprightWorldFromCamera() * jointPositions(skeleton, q);
+  for (int j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d p = row.p_camera.col(j);
+    if (p.z() <= 0) continue;
+    const Eigen::Vector2d uv = camera.project(p);
+    const bool inside = uv.x() >= 0 && uv.y() >= 0 && uv.x() <= camera.width - 1 && uv.y() <= camera.height - 1;
+    row.confidence[j] = inside ? 1.0 : 0.0;
+  }
+  return row;
+}
+
+TriangleMesh sceneFor(const SynthesisConfig& config, const StagedMotion& staged) {
+  if (config.scene == SceneKind::None) return {};
+  std::vector<Eigen::Vector3d> path;
+  for (const Pose& q : staged.poses) path.emplace_back(q.head<3>());
+  return makeRoom(staged.floor_y, path, config.seed);
+}
+
+void makeLabelFolder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw Error("cannot be created: " + failure.message(), folder.string());
+}
+
+RecordingInfo infoOf(const SynthesisConfig& config, double fps) {
+  RecordingInfo info;
+  info.camera = config.camera;
+  info.fps = fps;
+  info.camera_name = sensorName(config.sensor);
+  info.note = config.note;
+  return info;
+}
+
+}  // namespace
+
+void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const SynthesisConfig& config,
+                         const fs::path& folder, const std::function<void(std::size_t)>& progress) {
+  const StagedMotion staged = stageMotion(clip, body, config.staging);
+  const TriangleMesh room = sceneFor(config, staged);
+  RecordingWriter recording(folder, infoOf(config, clip.fps));
+  const fs::path labels = folder / "truth" / "labels";
+  makeLabelFolder(labels);
+  JointsWriter joints(folder / "truth" / "joints.csv");
+  PoseWriter poses(folder / "truth" / "pose.csv");
+
+  const auto workers = static_cast<std::size_t>(config.threads);
+  std::vector<FrameRenderer> renderers;
+  for (std::size_t w = 0; w < workers; ++w) renderers.emplace_back(body, config, room);
+  std::vector<RenderedFrame> batch(workers * kFramesAWorker);
+
+  const std::size_t count = staged.poses.size();
+  for (std::size_t first = 0; first < count; first += batch.size()) {
+    const std::size_t here = std::min(batch.size(), count - first);
+    parallelFor(config.threads, workers, [&](std::size_t w) {
+      for (std::size_t slot = w; slot < here; slot += workers) {
+        RenderedFrame& frame = batch[slot];
+        frame.depth.frame = static_cast<std::int64_t>(first + slot);
+        frame.depth.time_s = static_cast<double>(first + slot) / clip.fps;
+        renderers[w].render(staged.poses[first + slot], frame);
+        writePng8(labels / fmt::format("{:06d}.png", frame.depth.frame), frame.parts);
+      }
+    });
+    for (std::size_t slot = 0; slot < here; ++slot) {
+      const DepthFrame& frame = batch[slot].depth;
+      const Pose& q = staged.poses[first + slot];
+      recording.write(frame);
+      joints.write(truthRow(body.skeleton, q, config.camera, frame));
+      poses.write({frame.frame, frame.time_s, q});
+    }
+    if (progress) progress(first + here);
+  }
+  joints.finish();
+  poses.finish();
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,131 @@
+#include "forest/render/synthesize.h"
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "libtracker/body/builtin_body.h"
+#include "libtracker/core/error.h"
+#include "libtracker/recording/png_file.h"
+#include "libtracker/recording/recording.h"
+#include "libtracker/recording/track_files.h"
+
+namespace depthmocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Synthesize : public ::testing::Test {
+ protected:
+  Synthesize()
+      : folder_(fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    config_.camera = sensorCamera(SensorKind::Kinect1, true);
+  }
+  ~Synthesize() override { fs::remove_all(folder_); }
+
+  const fs::path folder_;
+  SynthesisConfig config_;
+};
+
+const BodySurface& body() {
+  static const BodySurface surface = makeBuiltinBody({.sex = Sex::Female, .stature_m = 1.66, .weight_kg = 60});
+  return surface;
+}
+
+MotionClip bendingArms(int frames) {
+  MotionClip clip;
+  clip.name = "arms";
+  for (int i = 0; i < frames; ++i) {
+    Pose q = Pose::Zero();
+    q[kRootTx] = 0.02 * i;
+    q[kLradiusRy] = -0.1 * i;
+    q[kRradiusRy] = 0.1 * i;
+    clip.poses.push_back(q);
+  }
+  return clip;
+}
+
+std::map<std::string, std::string> filesUnder(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    files[fs::relative(entry.path(), folder).string()] = std::string(std::istreambuf_iterator<char>(in), {});
+  }
+  return files;
+}
+
+TEST_F(Synthesize, BytesDoNotDependOnThreads) {
+  config_.scene = SceneKind::Room;
+  config_.threads = 1;
+  synthesizeRecording(bendingArms(11), body(), config_, folder_ / "one");
+  config_.threads = 3;
+  synthesizeRecording(bendingArms(11), body(), config_, folder_ / "three");
+  const auto one = filesUnder(folder_ / "one");
+  EXPECT_EQ(one.size(), 2U + 11U + 11U + 2U);
+  EXPECT_EQ(one, filesUnder(folder_ / "three"));
+}
+
+TEST_F(Synthesize, RecordingTruthAndLabelsAgree) {
+  std::size_t done = 0;
+  synthesizeRecording(bendingArms(5), body(), config_, folder_, [&](std::size_t n) { done = n; });
+  EXPECT_EQ(done, 5U);
+  const auto reader = openRecording(folder_);
+  ASSERT_EQ(reader->frameCount(), 5U);
+  EXPECT_EQ(reader->info().camera_name, "kinect1");
+  const std::vector<JointsRow> joints = readJointsFile(folder_ / "truth" / "joints.csv");
+  const std::vector<PoseRow> poses = readPoseFile(folder_ / "truth" / "pose.csv");
+  ASSERT_EQ(joints.size(), 5U);
+  ASSERT_EQ(poses.size(), 5U);
+  DepthFrame frame;
+  PartImage labels;
+  for (std::size_t i = 0; i < 5; ++i) {
+    reader->read(i, frame);
+    const CameraModel& camera = reader->info().camera;
+    readPng8(folder_ / "truth" / "labels" / ("00000" + std::to_string(i) + ".png"), camera.width, camera.height,
+             labels);
+    for (std::size_t p = 0; p < labels.data.size(); ++p) EXPECT_EQ(labels.data[p] != 0, frame.depth.data[p] > 0.0F);
+    EXPECT_DOUBLE_EQ(frame.time_s, joints[i].time_s);
+    EXPECT_NEAR(poses[i].q[kLradiusRy], -0.1 * static_cast<double>(i), 1e-6);
+    for (const Joint joint : {Joint::Pelvis, Joint::Spine, Joint::LeftKnee, Joint::RightElbow}) {
+      const Eigen::Vector3d p = joints[i].p_camera.col(static_cast<int>(joint));
+      const Eigen::Vector2d uv = camera.project(p);
+      const int x = static_cast<int>(std::lround(uv.x()));
+      const int y = static_cast<int>(std::lround(uv.y()));
+      ASSERT_TRUE(labels.contains(x, y));
+      EXPECT_NE(labels.at(x, y), 0);
+      EXPECT_NEAR(frame.depth.at(x, y), p.z() - 0.07, 0.09);
+    }
+  }
+}
+
+TEST_F(Synthesize, JointsOutsideTheImageHaveNoConfidence) {
+  config_.staging.distance_m = 0.8;  // too near for head and feet
+  synthesizeRecording(bendingArms(1), body(), config_, folder_);
+  const JointsRow row = readJointsFile(folder_ / "truth" / "joints.csv").front();
+  EXPECT_EQ(row.confidence[static_cast<int>(Joint::Pelvis)], 1.0);
+  EXPECT_EQ(row.confidence[static_cast<int>(Joint::LeftAnkle)], 0.0);
+  EXPECT_EQ(row.confidence[static_cast<int>(Joint::LeftWrist)], 0.0);
+  EXPECT_EQ(row.state, TrackState::Tracking);
+}
+
+TEST_F(Synthesize, NoiseOffGivesTheExactSurface) {
+  config_.noise = false;
+  synthesizeRecording(bendingArms(1), body(), config_, folder_ / "clean");
+  config_.noise = true;
+  synthesizeRecording(bendingArms(1), body(), config_, folder_ / "noisy");
+  EXPECT_NE(filesUnder(folder_ / "clean").at("depth/000000.png"), filesUnder(folder_ / "noisy").at("depth/000000.png"));
+  EXPECT_EQ(filesUnder(folder_ / "clean").at("truth/joints.csv"), filesUnder(folder_ / "noisy").at("truth/joints.csv"));
+}
+
+TEST_F(Synthesize, RefusesToOverwrite) {
+  synthesizeRecording(bendingArms(1), body(), config_, folder_);
+  EXPECT_THROW(synthesizeRecording(bendingArms(1), body(), config_, folder_), Error);
+}
+
+}  // namespace
+}  // namespace depthmocap
