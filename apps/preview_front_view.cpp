@@ -1,0 +1,117 @@
+#include "apps/preview_front_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/preview_shapes.h"
+
+namespace depthmocap {
+
+namespace {
+
+constexpr int kSmoothReach = 2;          // [px] of the smoothing before normals are taken
+constexpr float kSmoothRange_m = 0.04F;  // depths farther apart are not averaged
+constexpr float kMaxStep_m = 0.08F;      // a larger step between neighbours is an edge, not a slope
+const cv::Vec3f kLamp(-0.42F, -0.57F, -0.71F);
+const cv::Scalar kUnmeasured(36, 31, 28);
+
+// Mean of the neighbours at nearly the same depth: depth steps of the sensor would look like terraces otherwise.
+DepthImage smoothed(const DepthImage& depth) {
+  DepthImage result(depth.width, depth.height, 0.0F);
+  for (int y = 0; y < depth.height; ++y) {
+    for (int x = 0; x < depth.width; ++x) {
+      const float z = depth.at(x, y);
+      if (!(z > 0)) continue;
+      float sum = 0;
+      float count = 0;
+      for (int ny = std::max(0, y - kSmoothReach); ny <= std::min(depth.height - 1, y + kSmoothReach); ++ny) {
+        for (int nx = std::max(0, x - kSmoothReach); nx <= std::min(depth.width - 1, x + kSmoothReach); ++nx) {
+          const float other = depth.at(nx, ny);
+          const float use = other > 0 && std::abs(other - z) < kSmoothRange_m ? 1.0F : 0.0F;
+          sum += use * other;
+          count += use;
+        }
+      }
+      result.at(x, y) = sum / count;
+    }
+  }
+  return result;
+}
+
+// Depth change to the next pixel, from the sides that belong to the same surface.
+float slope(float before, float here, float after) {
+  const bool has_before = before > 0 && std::abs(here - before) < kMaxStep_m;
+  const bool has_after = after > 0 && std::abs(after - here) < kMaxStep_m;
+  if (has_before && has_after) return 0.5F * (after - before);
+  if (has_before) return here - before;
+  return has_after ? after - here : 0.0F;
+}
+
+cv::Mat paintPixels(const PreviewFrame& frame, const cv::Mat& shading) {
+  const DepthImage& depth = *frame.depth;
+  const bool has_labels = frame.labels != nullptr && !frame.labels->empty();
+  cv::Mat image(depth.height, depth.width, CV_8UC3, kUnmeasured);
+  for (int y = 0; y < depth.height; ++y) {
+    for (int x = 0; x < depth.width; ++x) {
+      const float z = depth.at(x, y);
+      if (!(z > 0)) continue;
+      const double light = static_cast<double>(shading.at<float>(y, x));
+      const int part = has_labels ? frame.labels->at(x, y) : 0;
+      const double grey = 190.0 * std::clamp(1.15 - static_cast<double>(z) / 6.0, 0.25, 1.0);
+      cv::Scalar color = cv::Scalar(grey, grey, grey) * (has_labels ? 0.6 : 1.0);
+      if (part > 0 && part <= kPartCount) color = partColor(part) * 0.85 + cv::Scalar(30, 30, 30);
+      color *= 0.3 + 0.7 * light;
+      for (int c = 0; c < 3; ++c) image.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<std::uint8_t>(color[c]);
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+cv::Mat shadeDepth(const DepthImage& depth, const CameraModel& camera) {
+  const DepthImage smooth = smoothed(depth);
+  cv::Mat shading(depth.height, depth.width, CV_32F, cv::Scalar(0));
+  const auto read = [&](int x, int y) { return smooth.contains(x, y) ? smooth.at(x, y) : 0.0F; };
+  for (int y = 0; y < depth.height; ++y) {
+    for (int x = 0; x < depth.width; ++x) {
+      const float z = smooth.at(x, y);
+      if (!(z > 0)) continue;
+      const float dx = slope(read(x - 1, y), z, read(x + 1, y)) * static_cast<float>(camera.fx) / z;
+      const float dy = slope(read(x, y - 1), z, read(x, y + 1)) * static_cast<float>(camera.fy) / z;
+      const cv::Vec3f normal(dx, dy, -1.0F);
+      shading.at<float>(y, x) = std::clamp(normal.dot(kLamp) / static_cast<float>(cv::norm(normal)), 0.0F, 1.0F);
+    }
+  }
+  return shading;
+}
+
+void drawFrontView(const PreviewFrame& frame, const CameraModel& camera, const cv::Mat& shading, cv::Mat& panel) {
+  panel.setTo(kUnmeasured);
+  const cv::Mat pixels = paintPixels(frame, shading);
+  const double scale =
+      std::min(static_cast<double>(panel.cols) / pixels.cols, static_cast<double>(panel.rows) / pixels.rows);
+  const cv::Size size(cvRound(pixels.cols * scale), cvRound(pixels.rows * scale));
+  const cv::Rect place((panel.cols - size.width) / 2, (panel.rows - size.height) / 2, size.width, size.height);
+  cv::Mat target = panel(place);
+  cv::resize(pixels, target, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  const auto toPanel = [&](const Eigen::Vector3d& p_camera) -> std::optional<cv::Point2f> {
+    if (!(p_camera.z() > 0.1)) return std::nullopt;
+    const Eigen::Vector2d pixel = scale * (camera.project(p_camera) + Eigen::Vector2d::Constant(0.5));
+    return cv::Point2f(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+  };
+  if (frame.markers != nullptr) {
+    MarkerPixels markers;
+    for (int k = 0; k < kPartCount; ++k) {
+      if (frame.markers->seen(k)) markers[static_cast<std::size_t>(k)] = toPanel(frame.markers->position.col(k));
+    }
+    drawMarkers(markers, target);
+  }
+  if (frame.joints == nullptr || frame.joints->state == TrackState::Lost) return;
+  JointPixels joints;
+  for (int k = 0; k < kJointCount; ++k) joints[static_cast<std::size_t>(k)] = toPanel(frame.joints->p_camera.col(k));
+  drawSkeleton(joints, *frame.joints, target);
+}
+
+}  // namespace depthmocap
