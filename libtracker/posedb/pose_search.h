@@ -15,7 +15,7 @@ struct PoseSearchConfig {
   double beta = 0.25;              // (>= 0) weight of the change of pose
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
   bool upright_alignment = false;  // R(a_n, a~) turns about the vertical only, beyond the paper; else any rotation
-  int candidates = 512;      // [poses] (>= 1) proposed by the FLANN index for the exact distance, all headings together
+  int candidates = 512;      // [poses] (>= 1) proposed by the FLANN index for the exact distance
   int features = 12;         // (1 .. 30) principal components of the markers that the index holds
   double index_error = 0.0;  // (>= 0) FLANN's eps: the index may miss a candidate by this share of its distance
   void validate() const;     // throws Error naming field, value and rule
@@ -27,8 +27,8 @@ struct PoseQuery {
   bool has_history = false;     // whether the two poses before are known
   Pose q_prev = Pose::Zero();   // q_-1
   Pose q_prev2 = Pose::Zero();  // q_-2
-  double heading = 0;           // [rad] rough heading of the actor, used where has_history; else found from the markers
-  double scale = 1.0;           // (> 0) size of the actor over the size of the search's skeleton
+  double heading = 0;  // [rad] rough heading of the actor, a start where has_history; else all directions are tried
+  double scale = 1.0;  // (> 0) size of the actor over the size of the search's skeleton
 };
 
 struct PoseNeighbour {
@@ -44,11 +44,11 @@ struct PoseNeighbour {
 // where the pose term runs over kShapeDofs (neither place nor heading) and is left out without history. Distances of
 // one query compare; those of queries with other markers do not.
 //
-// Candidates come from an exact FLANN kd-tree over the first principal components of the database's markers (root at
-// the origin, heading zero). The query's components are the posterior mean of a Gaussian with the database's
-// covariance, given the seen markers and an unknown translation; so markers that are missing are filled in by
-// regression. Several headings are tried: about the rough heading with history, about the left-right axes of shoulders,
-// waist and legs without, all around without those.
+// Candidates come from a FLANN kd-tree over the first principal components of the database's marker shapes, each turned
+// by the best rotation onto their mean, as the exact distance turns them. The query's components are the posterior mean
+// of a Gaussian with the database's covariance, given the seen markers and an unknown rigid motion; so markers that are
+// missing are filled in by regression. The rough heading, where there is history, or else all directions, are tried as
+// a start; if two different rotations explain the markers, each proposes half of the candidates.
 //
 // Thread-compatible. Our own code does not allocate after the first search; FLANN allocates a vector of `features`
 // floats.

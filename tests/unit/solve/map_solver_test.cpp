@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "libtracker/core/error.h"
-#include "tests/unit/solve/solve_scene.h"
+#include "tests/moving_body.h"
 
 namespace depthmocap {
 namespace {
@@ -15,18 +15,18 @@ constexpr double kFrame_s = 1.0 / 30.0;
 
 std::vector<Pose> posesAround(std::uint64_t seed, double t) {
   std::vector<Pose> poses;
-  for (int i = -12; i <= 12; ++i) poses.push_back(SolveScene::motion(seed, t + 0.02 * i + 0.007));
+  for (int i = -12; i <= 12; ++i) poses.push_back(MovingBody::motion(seed, t + 0.02 * i + 0.007));
   return poses;
 }
 
 TEST(MapSolver, RecoversThePoseFromPerfectMarkers) {
-  const SolveScene scene;
+  const MovingBody scene;
   MapSolver solver{MapConfig{}};
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Pose truth = SolveScene::motion(seed, 1.0);
+    const Pose truth = MovingBody::motion(seed, 1.0);
     const MarkerSet markers = scene.markers(truth);
-    const LocalPrior prior = SolveScene::priorOf(posesAround(seed, 1.0), 7);
-    Pose q = SolveScene::motion(seed, 0.8);
+    const LocalPrior prior = MovingBody::priorOf(posesAround(seed, 1.0), 7);
+    Pose q = MovingBody::motion(seed, 0.8);
     ASSERT_GT(scene.jointError(q, truth), 0.02);
     const MapSummary summary = solver.solve({scene.skeleton, scene.model, markers, &prior}, q);
     EXPECT_TRUE(summary.converged);
@@ -36,17 +36,17 @@ TEST(MapSolver, RecoversThePoseFromPerfectMarkers) {
 }
 
 TEST(MapSolver, MeetsTheReferenceSolver) {
-  const SolveScene scene;
+  const MovingBody scene;
   MapConfig config;
   config.energy_tolerance = 1e-12;
   config.max_iterations = 200;
   MapSolver solver(config);
   Random random(3);
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const MarkerSet markers = scene.noisyMarkers(SolveScene::motion(seed, 1.0), 0.01, 3, random);
-    const LocalPrior prior = SolveScene::priorOf(posesAround(seed, 1.0), 5);
-    const Pose q1 = SolveScene::motion(seed, 1.0 - kFrame_s);
-    const Pose q2 = SolveScene::motion(seed, 1.0 - 2 * kFrame_s);
+    const MarkerSet markers = scene.noisyMarkers(MovingBody::motion(seed, 1.0), 0.01, 3, random);
+    const LocalPrior prior = MovingBody::priorOf(posesAround(seed, 1.0), 5);
+    const Pose q1 = MovingBody::motion(seed, 1.0 - kFrame_s);
+    const Pose q2 = MovingBody::motion(seed, 1.0 - 2 * kFrame_s);
     const MapInput input{scene.skeleton, scene.model, markers, &prior, &q1, &q2};
     Pose q = q1;
     Pose reference = q1;
@@ -59,13 +59,13 @@ TEST(MapSolver, MeetsTheReferenceSolver) {
 }
 
 TEST(MapSolver, EnergyIsTheWeightedSumOfTheTerms) {
-  const SolveScene scene;
+  const MovingBody scene;
   const MapConfig config;
   MapSolver solver(config);
   Random random(4);
-  const MarkerSet markers = scene.noisyMarkers(SolveScene::motion(1, 1.0), 0.02, 2, random);
-  const LocalPrior prior = SolveScene::priorOf(posesAround(1, 1.0), 3);
-  const Pose q1 = SolveScene::motion(1, 0.95);
+  const MarkerSet markers = scene.noisyMarkers(MovingBody::motion(1, 1.0), 0.02, 2, random);
+  const LocalPrior prior = MovingBody::priorOf(posesAround(1, 1.0), 3);
+  const Pose q1 = MovingBody::motion(1, 0.95);
   Pose q = q1;
   const MapSummary s = solver.solve({scene.skeleton, scene.model, markers, &prior, &q1}, q);
   EXPECT_GT(s.e_marker, 0);
@@ -83,19 +83,19 @@ struct TrackError {
 
 // Tracks made-up motions from markers with 1 cm noise, `missing` of them not seen; mean joint error over their frames.
 TrackError track(const MapConfig& config, bool with_prior, bool with_smooth, int missing) {
-  const SolveScene scene;
+  const MovingBody scene;
   constexpr int kFrames = 40;
   TrackError error;
   MapSolver solver(config);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Random random(seed);
-    Pose q1 = SolveScene::motion(seed, -kFrame_s);
-    Pose q2 = SolveScene::motion(seed, -2 * kFrame_s);
+    Pose q1 = MovingBody::motion(seed, -kFrame_s);
+    Pose q2 = MovingBody::motion(seed, -2 * kFrame_s);
     for (int frame = 0; frame < kFrames; ++frame) {
       const double t = frame * kFrame_s;
-      const Pose truth = SolveScene::motion(seed, t);
+      const Pose truth = MovingBody::motion(seed, t);
       const MarkerSet markers = scene.noisyMarkers(truth, 0.01, missing, random);
-      const LocalPrior prior = SolveScene::priorOf(posesAround(seed, t), 5);
+      const LocalPrior prior = MovingBody::priorOf(posesAround(seed, t), 5);
       Pose q = q1;
       const MapInput input{scene.skeleton,
                            scene.model,
@@ -138,21 +138,21 @@ TEST(MapSolver, ALowerVelocityShareBearsMissingMarkersBetter) {
 }
 
 TEST(MapSolver, AStrayMarkerDoesNotPullThePose) {
-  const SolveScene scene;
+  const MovingBody scene;
   MapSolver solver{MapConfig{}};
-  const Pose truth = SolveScene::motion(2, 1.0);
+  const Pose truth = MovingBody::motion(2, 1.0);
   MarkerSet markers = scene.markers(truth);
   markers.position.col(partIndex(Part::LeftLowerArm)).array() += 1.0;
-  const LocalPrior prior = SolveScene::priorOf(posesAround(2, 1.0), 5);
-  const Pose q1 = SolveScene::motion(2, 1.0 - kFrame_s);
-  const Pose q2 = SolveScene::motion(2, 1.0 - 2 * kFrame_s);
+  const LocalPrior prior = MovingBody::priorOf(posesAround(2, 1.0), 5);
+  const Pose q1 = MovingBody::motion(2, 1.0 - kFrame_s);
+  const Pose q2 = MovingBody::motion(2, 1.0 - 2 * kFrame_s);
   Pose q = q1;
   solver.solve({scene.skeleton, scene.model, markers, &prior, &q1, &q2}, q);
   EXPECT_LT(scene.jointError(q, truth), 0.02);
 }
 
 TEST(MapSolver, JointLimitsKeepKneesFromBendingBackwards) {
-  const SolveScene scene;
+  const MovingBody scene;
   Pose impossible = Pose::Zero();
   impossible[kRtibiaRx] = -0.8;
   const MarkerSet markers = scene.markers(impossible);
@@ -169,33 +169,33 @@ TEST(MapSolver, JointLimitsKeepKneesFromBendingBackwards) {
 }
 
 TEST(MapSolver, WithoutMarkersThePriorAndTheMotionCarryOn) {
-  const SolveScene scene;
+  const MovingBody scene;
   MapSolver solver{MapConfig{}};
   const MarkerSet none;
-  const LocalPrior prior = SolveScene::priorOf(posesAround(1, 1.0), 5);
-  const Pose q1 = SolveScene::motion(1, 1.0 - kFrame_s);
-  const Pose q2 = SolveScene::motion(1, 1.0 - 2 * kFrame_s);
+  const LocalPrior prior = MovingBody::priorOf(posesAround(1, 1.0), 5);
+  const Pose q1 = MovingBody::motion(1, 1.0 - kFrame_s);
+  const Pose q2 = MovingBody::motion(1, 1.0 - 2 * kFrame_s);
   Pose q = q1;
   const MapSummary summary = solver.solve({scene.skeleton, scene.model, none, &prior, &q1, &q2}, q);
   EXPECT_TRUE(q.allFinite());
   EXPECT_EQ(summary.e_marker, 0);
-  EXPECT_LT(scene.jointError(q, SolveScene::motion(1, 1.0)), 0.02);
+  EXPECT_LT(scene.jointError(q, MovingBody::motion(1, 1.0)), 0.02);
 }
 
 TEST(MapSolver, WithNothingAtAllThePoseStays) {
-  const SolveScene scene;
+  const MovingBody scene;
   MapSolver solver{MapConfig{}};
   const MarkerSet none;
-  Pose q = clampedToLimits(SolveScene::motion(1, 1.0));
+  Pose q = clampedToLimits(MovingBody::motion(1, 1.0));
   const Pose start = q;
   EXPECT_TRUE(solver.solve({scene.skeleton, scene.model, none}, q).converged);
   EXPECT_EQ(q, start);
 }
 
 TEST(MapSolver, HeadingComesBackWrapped) {
-  const SolveScene scene;
+  const MovingBody scene;
   MapSolver solver{MapConfig{}};
-  Pose truth = SolveScene::motion(1, 1.0);
+  Pose truth = MovingBody::motion(1, 1.0);
   truth[kRootRy] = std::numbers::pi + 0.1;
   const MarkerSet markers = scene.markers(truth);
   Pose q = truth;
@@ -205,12 +205,12 @@ TEST(MapSolver, HeadingComesBackWrapped) {
 }
 
 TEST(MapSolver, SameInputSameBytes) {
-  const SolveScene scene;
+  const MovingBody scene;
   Random random(9);
-  const MarkerSet markers = scene.noisyMarkers(SolveScene::motion(1, 1.0), 0.02, 3, random);
+  const MarkerSet markers = scene.noisyMarkers(MovingBody::motion(1, 1.0), 0.02, 3, random);
   MapSolver solver{MapConfig{}};
-  Pose a = SolveScene::motion(1, 0.9);
-  Pose other = SolveScene::motion(5, 0.4);
+  Pose a = MovingBody::motion(1, 0.9);
+  Pose other = MovingBody::motion(5, 0.4);
   Pose b = a;
   solver.solve({scene.skeleton, scene.model, markers}, a);
   solver.solve({scene.skeleton, scene.model, markers}, other);
@@ -219,12 +219,12 @@ TEST(MapSolver, SameInputSameBytes) {
 }
 
 TEST(MapSolver, IterationLimitIsKept) {
-  const SolveScene scene;
+  const MovingBody scene;
   MapConfig config;
   config.max_iterations = 1;
   MapSolver solver(config);
-  const MarkerSet markers = scene.markers(SolveScene::motion(1, 1.0));
-  Pose q = SolveScene::motion(1, 0.6);
+  const MarkerSet markers = scene.markers(MovingBody::motion(1, 1.0));
+  Pose q = MovingBody::motion(1, 0.6);
   const MapSummary summary = solver.solve({scene.skeleton, scene.model, markers}, q);
   EXPECT_FALSE(summary.converged);
   EXPECT_EQ(summary.iterations, 1);

@@ -2,28 +2,28 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/solve/solve_scene.h"
+#include "tests/moving_body.h"
 
 namespace depthmocap {
 namespace {
 
 // The markers that an actor `scale` times as large as the scene's skeleton shows in pose q.
-MarkerSet markersOfSize(const SolveScene& scene, const Pose& q, double scale) {
-  SolveScene other;
+MarkerSet markersOfSize(const MovingBody& scene, const Pose& q, double scale) {
+  MovingBody other;
   other.skeleton = makeSkeleton(scene.skeleton.lengths.scaled(scale));
   other.model = averageMarkerModel(other.skeleton);
   return other.markers(q);
 }
 
-ForwardKinematics fkOf(const SolveScene& scene, const Pose& q) {
+ForwardKinematics fkOf(const MovingBody& scene, const Pose& q) {
   ForwardKinematics fk;
   fk.update(scene.skeleton, q);
   return fk;
 }
 
 TEST(EstimateSize, FindsTheScaleExactlyWhereverTheActorStands) {
-  const SolveScene scene;
-  const Pose q = SolveScene::motion(1, 0.4);
+  const MovingBody scene;
+  const Pose q = MovingBody::motion(1, 0.4);
   Pose elsewhere = q;
   elsewhere.head<3>() << 4, 1, -7;
   for (const double scale : {0.8, 1.0, 1.15}) {
@@ -34,8 +34,8 @@ TEST(EstimateSize, FindsTheScaleExactlyWhereverTheActorStands) {
 }
 
 TEST(EstimateSize, StrayAndMissingMarkersHardlyMatter) {
-  const SolveScene scene;
-  const Pose q = SolveScene::motion(2, 0.4);
+  const MovingBody scene;
+  const Pose q = MovingBody::motion(2, 0.4);
   MarkerSet markers = markersOfSize(scene, q, 1.06);
   markers.position.col(partIndex(Part::LeftLowerArm)).array() += 0.8;
   markers.confidence[partIndex(Part::Head)] = 0;
@@ -44,8 +44,8 @@ TEST(EstimateSize, StrayAndMissingMarkersHardlyMatter) {
 }
 
 TEST(EstimateSize, IsInvalidWithTooFewMarkersOrNoExtent) {
-  const SolveScene scene;
-  const Pose q = SolveScene::motion(2, 0.4);
+  const MovingBody scene;
+  const Pose q = MovingBody::motion(2, 0.4);
   MarkerSet markers = scene.markers(q);
   markers.confidence.tail<kPartCount - 3>().setZero();
   EXPECT_FALSE(estimateSize(fkOf(scene, q), scene.model, markers).valid);

@@ -8,7 +8,7 @@
 #include "libtracker/solve/prior_term.h"
 #include "libtracker/solve/smooth_term.h"
 #include "tests/gradient_check.h"
-#include "tests/unit/solve/solve_scene.h"
+#include "tests/moving_body.h"
 
 namespace depthmocap {
 namespace {
@@ -41,20 +41,20 @@ double lorentzian(double e, double sigma) {
 }
 
 TEST(MarkerTerm, GradientMatchesNearAndFarFromTheMarkers) {
-  const SolveScene scene;
+  const MovingBody scene;
   Random random(1);
-  const Pose truth = SolveScene::motion(1, 0.3);
+  const Pose truth = MovingBody::motion(1, 0.3);
   for (const double noise_m : {1e-4, 0.01, 0.05, 0.4}) {
     const MarkerSet markers = scene.noisyMarkers(truth, noise_m, 3, random);
     MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
     expectGradient(term, truth, 1e-5, MarkerTerm::kResidualRows);
-    expectGradient(term, SolveScene::motion(1, 0.5), 1e-5, MarkerTerm::kResidualRows);
+    expectGradient(term, MovingBody::motion(1, 0.5), 1e-5, MarkerTerm::kResidualRows);
   }
 }
 
 TEST(MarkerTerm, GradientIsFiniteAtAPerfectFit) {
-  const SolveScene scene;
-  const Pose truth = SolveScene::motion(2, 0.1);
+  const MovingBody scene;
+  const Pose truth = MovingBody::motion(2, 0.1);
   const MarkerSet markers = scene.markers(truth);
   MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
   EXPECT_LT(residualOf(term, truth).norm(), 1e-12);
@@ -62,8 +62,8 @@ TEST(MarkerTerm, GradientIsFiniteAtAPerfectFit) {
 }
 
 TEST(MarkerTerm, EnergyIsTheWeightedLorentzianOfTheSeenMarkers) {
-  const SolveScene scene;
-  const Pose q = SolveScene::motion(3, 0.0);
+  const MovingBody scene;
+  const Pose q = MovingBody::motion(3, 0.0);
   MarkerSet markers = scene.markers(q);
   markers.position.col(2).x() += 0.03;
   markers.position.col(9).y() += 0.7;
@@ -80,8 +80,8 @@ TEST(MarkerTerm, EnergyIsTheWeightedLorentzianOfTheSeenMarkers) {
 // Moving along e: J^T J must be that of iteratively reweighted least squares, and the extra row must not touch the
 // gradient.
 TEST(MarkerTerm, CurvatureAlongTheErrorIsThatOfReweightedLeastSquares) {
-  const SolveScene scene;
-  const Pose q = SolveScene::motion(3, 0.0);
+  const MovingBody scene;
+  const Pose q = MovingBody::motion(3, 0.0);
   for (const double e : {1e-7, 0.01, 0.05, 0.2, 1.0}) {
     MarkerSet markers = scene.markers(q);
     markers.confidence.setZero();
@@ -100,7 +100,7 @@ TEST(MarkerTerm, CurvatureAlongTheErrorIsThatOfReweightedLeastSquares) {
 }
 
 TEST(MarkerTerm, NoMarkersNoEnergy) {
-  const SolveScene scene;
+  const MovingBody scene;
   const MarkerSet none;
   MarkerTerm term(scene.skeleton, scene.model, none, 5.0, 0.05);
   EXPECT_EQ(residualOf(term, Pose::Zero()).norm(), 0);
@@ -109,18 +109,18 @@ TEST(MarkerTerm, NoMarkersNoEnergy) {
 
 std::vector<Pose> somePoses() {
   std::vector<Pose> poses;
-  for (int i = 0; i < 20; ++i) poses.push_back(SolveScene::motion(4, 0.1 * i));
+  for (int i = 0; i < 20; ++i) poses.push_back(MovingBody::motion(4, 0.1 * i));
   return poses;
 }
 
 TEST(PriorTerm, GradientMatches) {
-  const LocalPrior prior = SolveScene::priorOf(somePoses(), 2);
+  const LocalPrior prior = MovingBody::priorOf(somePoses(), 2);
   PriorTerm term(&prior, 0.2);
-  expectGradient(term, SolveScene::motion(5, 0.2));
+  expectGradient(term, MovingBody::motion(5, 0.2));
 }
 
 TEST(PriorTerm, IsZeroOnTheSubspaceAndTheSquaredDistanceOffIt) {
-  const LocalPrior prior = SolveScene::priorOf(somePoses(), 3);
+  const LocalPrior prior = MovingBody::priorOf(somePoses(), 3);
   PriorTerm term(&prior, 0.2);
   Pose q = prior.mean + prior.basis.leftCols<3>() * Eigen::Vector3d(0.7, -0.4, 0.2);
   EXPECT_LT(residualOf(term, q).norm(), 1e-12);
@@ -135,27 +135,27 @@ TEST(PriorTerm, IsZeroOnTheSubspaceAndTheSquaredDistanceOffIt) {
 
 TEST(PriorTerm, NoPriorNoEnergy) {
   PriorTerm term(nullptr, 0.2);
-  EXPECT_EQ(residualOf(term, SolveScene::motion(5, 0.2)).norm(), 0);
+  EXPECT_EQ(residualOf(term, MovingBody::motion(5, 0.2)).norm(), 0);
 }
 
 TEST(SmoothTerm, GradientMatches) {
-  const Pose q1 = SolveScene::motion(6, 0.1);
-  const Pose q2 = SolveScene::motion(6, 0.05);
+  const Pose q1 = MovingBody::motion(6, 0.1);
+  const Pose q2 = MovingBody::motion(6, 0.05);
   SmoothTerm term(&q1, &q2, 1.0, 1.0);
-  expectGradient(term, SolveScene::motion(6, 0.2));
+  expectGradient(term, MovingBody::motion(6, 0.2));
 }
 
 TEST(SmoothTerm, IsThePapersSecondDifference) {
-  const Pose q = SolveScene::motion(6, 0.2);
-  const Pose q1 = SolveScene::motion(6, 0.1);
-  const Pose q2 = SolveScene::motion(6, 0.05);
+  const Pose q = MovingBody::motion(6, 0.2);
+  const Pose q1 = MovingBody::motion(6, 0.1);
+  const Pose q2 = MovingBody::motion(6, 0.05);
   SmoothTerm term(&q1, &q2, 1.0, 3.0);
   EXPECT_NEAR(residualOf(term, q).squaredNorm(), 3.0 * (q - 2 * q1 + q2).squaredNorm(), 1e-12);
 }
 
 TEST(SmoothTerm, ConstantVelocityCostsNothingAtUnevenTimes) {
-  const Pose q2 = SolveScene::motion(7, 0.0);
-  const Pose velocity = SolveScene::motion(7, 0.5) - q2;
+  const Pose q2 = MovingBody::motion(7, 0.0);
+  const Pose velocity = MovingBody::motion(7, 0.5) - q2;
   const Pose q1 = q2 + 0.033 * velocity;
   SmoothTerm term(&q1, &q2, 3.0, 1.0);
   EXPECT_LT(residualOf(term, q1 + 0.099 * velocity).norm(), 1e-12);
@@ -176,7 +176,7 @@ TEST(SmoothTerm, HeadingGoesAroundTheCircle) {
 }
 
 TEST(SmoothTerm, WithOnePoseNoMotionIsExpectedAndWithNoneNothing) {
-  const Pose q1 = SolveScene::motion(8, 0.0);
+  const Pose q1 = MovingBody::motion(8, 0.0);
   SmoothTerm one(&q1, nullptr, 1.0, 1.0);
   EXPECT_EQ(residualOf(one, q1).norm(), 0);
   EXPECT_NEAR(residualOf(one, Pose(q1.array() + 0.1)).squaredNorm(), 0.01 * kDofCount, 1e-12);
@@ -193,7 +193,7 @@ TEST(LimitTerm, GradientMatchesOnBothSidesAndWithin) {
 
 TEST(LimitTerm, CostsTheSquaredExcessOnly) {
   LimitTerm term(10.0);
-  Pose q = SolveScene::motion(9, 0.3);
+  Pose q = MovingBody::motion(9, 0.3);
   q[kRootRy] = 100;
   q[kRootTx] = -40;
   EXPECT_EQ(residualOf(term, clampedToLimits(q)).norm(), 0);

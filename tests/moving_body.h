@@ -12,8 +12,8 @@
 
 namespace depthmocap {
 
-// A body, and smooth made-up motions of it, for the tests of this layer.
-struct SolveScene {
+// A body, and smooth made-up motions of it, for the tests of search, prior and solve.
+struct MovingBody {
   Skeleton skeleton = makeSkeleton(BoneLengths{});
   MarkerModel model = averageMarkerModel(skeleton);
 
