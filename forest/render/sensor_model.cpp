@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "libtracker/core/check.h"
 
@@ -63,6 +64,26 @@ double windowDisparity(const DepthImage& depth, int x, int y, int stride, double
     }
   }
   return sum / count;
+}
+
+// The pixels that can measure something: the rendered box and a margin [px] for the wobble of silhouettes.
+struct Window {
+  int x0, y0, x1, y1;
+
+  Window(const RenderedView& view, double margin)
+      : x0(std::max(0, view.x0 - static_cast<int>(std::ceil(margin)))),
+        y0(std::max(0, view.y0 - static_cast<int>(std::ceil(margin)))),
+        x1(std::min(view.depth.width, view.x1 + static_cast<int>(std::ceil(margin)))),
+        y1(std::min(view.depth.height, view.y1 + static_cast<int>(std::ceil(margin)))) {}
+  void draw(SmoothNoise& field, double spacing, Random& random) const {
+    field.draw(std::max(0, x1 - x0), std::max(0, y1 - y0), spacing, random);
+  }
+};
+
+// The pixel that is measured at (x, y) once silhouettes wobble by `lateral` [px].
+std::pair<int, int> wobbled(int x, int y, double lateral, float shift_x, float shift_y, const DepthImage& image) {
+  return {std::clamp(x + static_cast<int>(std::lround(lateral * shift_x)), 0, image.width - 1),
+          std::clamp(y + static_cast<int>(std::lround(lateral * shift_y)), 0, image.height - 1)};
 }
 
 // A standard normal field is above this value on a share of the image (a logistic fit of the normal quantile, good to
@@ -162,32 +183,31 @@ void SensorModel::apply(const RenderedView& view, const CameraModel& camera, Ran
 void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& random, DepthImage& depth,
                                PartImage& parts) {
   const Kinect1Noise& n = kinect1;
-  const int width = view.depth.width;
-  const int height = view.depth.height;
-  const double window = std::max(1.5, n.window_px * scale);
-  const int stride = std::max(1, static_cast<int>(std::lround(window / 3.0)));
-  for (SmoothNoise* field : {&shift_x_, &shift_y_, &error_, &dropout_}) field->draw(width, height, window, random);
+  const double match_px = std::max(1.5, n.window_px * scale);
+  const int stride = std::max(1, static_cast<int>(std::lround(match_px / 3.0)));
   const double lateral = n.lateral_noise_px * scale;
+  const Window window(view, 3.0 * lateral);
+  for (SmoothNoise* field : {&shift_x_, &shift_y_, &error_, &dropout_}) window.draw(*field, match_px, random);
   const double focal_baseline = n.focal_px * n.baseline_m;
   const float edge_threshold = thresholdForShare(n.edge_dropout);
   const float hair_threshold = thresholdForShare(n.hair_dropout);
 
-  const int margin = static_cast<int>(std::ceil(3.0 * lateral));
-  for (int y = std::max(0, view.y0 - margin); y < std::min(height, view.y1 + margin); ++y) {
-    for (int x = std::max(0, view.x0 - margin); x < std::min(width, view.x1 + margin); ++x) {
-      const int sx = std::clamp(x + static_cast<int>(std::lround(lateral * shift_x_.at(x, y))), 0, width - 1);
-      const int sy = std::clamp(y + static_cast<int>(std::lround(lateral * shift_y_.at(x, y))), 0, height - 1);
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      const int u = x - window.x0;
+      const int v = y - window.y0;
+      const auto [sx, sy] = wobbled(x, y, lateral, shift_x_.at(u, v), shift_y_.at(u, v), view.depth);
       const double clean = view.depth.at(sx, sy);
       if (clean <= 0.0 || view.lit.at(sx, sy) == 0) continue;
       const float cosine = view.incidence.at(sx, sy);
-      const float drop = dropout_.at(x, y);
+      const float drop = dropout_.at(u, v);
       const bool head = view.parts.at(sx, sy) == static_cast<std::uint8_t>(Part::Head);
       if (cosine < n.grazing_cos * (1.0 + 0.5 * drop)) continue;
       if (head && cosine < n.hair_cos && drop > hair_threshold) continue;
       if (drop > edge_threshold && lookAround(view.depth, sx, sy).edge) continue;
 
       const double slant = 1.0 / std::max(0.3, static_cast<double>(cosine));
-      const double noise = slant * (n.window_noise_px * error_.at(x, y) + n.pixel_noise_px * random.normal());
+      const double noise = slant * (n.window_noise_px * error_.at(u, v) + n.pixel_noise_px * random.normal());
       const double disparity =
           std::round((windowDisparity(view.depth, sx, sy, stride, focal_baseline) + noise) / n.disparity_step_px) *
           n.disparity_step_px;
@@ -208,25 +228,23 @@ void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& r
 void SensorModel::applyKinect2(const RenderedView& view, double scale, Random& random, DepthImage& depth,
                                PartImage& parts) {
   const Kinect2Noise& n = kinect2;
-  const int width = view.depth.width;
-  const int height = view.depth.height;
   const double lateral = n.lateral_noise_px * scale;
-  shift_x_.draw(width, height, 2.0, random);
-  shift_y_.draw(width, height, 2.0, random);
-  error_.draw(width, height, n.multipath_px * scale, random);
+  const Window window(view, 3.0 * lateral);
+  for (SmoothNoise* field : {&shift_x_, &shift_y_}) window.draw(*field, 2.0, random);
+  window.draw(error_, n.multipath_px * scale, random);
 
-  const int margin = static_cast<int>(std::ceil(3.0 * lateral));
-  for (int y = std::max(0, view.y0 - margin); y < std::min(height, view.y1 + margin); ++y) {
-    for (int x = std::max(0, view.x0 - margin); x < std::min(width, view.x1 + margin); ++x) {
-      const int sx = std::clamp(x + static_cast<int>(std::lround(lateral * shift_x_.at(x, y))), 0, width - 1);
-      const int sy = std::clamp(y + static_cast<int>(std::lround(lateral * shift_y_.at(x, y))), 0, height - 1);
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      const int u = x - window.x0;
+      const int v = y - window.y0;
+      const auto [sx, sy] = wobbled(x, y, lateral, shift_x_.at(u, v), shift_y_.at(u, v), view.depth);
       const double clean = view.depth.at(sx, sy);
       if (clean <= 0.0) continue;
       const double cosine = view.incidence.at(sx, sy);
       if (cosine < n.grazing_cos) continue;
       const double slant = 1.0 / std::max(0.25, cosine);
       const double spread = (n.noise_m + n.noise_per_m2 * clean * clean) * (0.5 + 0.5 * slant);
-      double measured = clean + spread * random.normal() + n.multipath_m * error_.at(x, y);
+      double measured = clean + spread * random.normal() + n.multipath_m * error_.at(u, v);
       std::uint8_t part = view.parts.at(sx, sy);
       const Neighbourhood around = lookAround(view.depth, sx, sy);
       if (around.before && random.uniform() < n.flying_share) {
