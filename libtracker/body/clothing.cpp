@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "libtracker/body/skin_weights.h"
 #include "libtracker/core/error.h"
 
 namespace depthmocap {
@@ -17,6 +18,7 @@ using Eigen::Vector3d;
 
 // Distance over which a hem fades out, as a share of the upper arm (a centimetre or two).
 constexpr double kHemShare = 0.07;
+constexpr double kInnerStretch = 1.8;
 constexpr double kMiddleGap = 0.002;  // [m] that each leg keeps from the middle plane
 
 double smoothStep(double from, double to, double value) {
@@ -102,8 +104,9 @@ class Wardrobe {
     const double line = std::clamp(0.9 * p.z() / (0.5 * n), -0.45, 0.45) * n;
     const double scalp = smoothStep(line - 0.05 * n, line + 0.25 * n, above_chin + 0.10 * n);
     const double bottom = l_.torso + n * (0.55 - 1.6 * c_.hair_length);
-    const double behind = smoothStep(0.05 * n, -0.25 * n, p.z()) * smoothStep(bottom, bottom + 0.3 * n, p.y()) *
-                          smoothStep(0.62 * n, 0.40 * n, std::abs(p.x()));
+    const double behind = smoothStep(0.05 * n, -0.25 * n, p.z()) *
+                          smoothStep(bottom - 0.2 * n, bottom + 0.4 * n, p.y()) *
+                          smoothStep(0.75 * n, 0.30 * n, std::abs(p.x()));
     return c_.hair_m * std::max(scalp, c_.hair_length > 0 ? behind : 0.0);
   }
   [[nodiscard]] double shoes(const Vector3d& p) const {
@@ -128,7 +131,7 @@ Eigen::Vector2d hipExtent(const BodySurface& body) {
 }
 
 // Where a leg's vertex lies on one half of the skirt: along the ray from the leg's axis, on the ellipse or on the
-// middle plane, whichever comes first.
+// middle plane, whichever comes first. axis_x: distance [m] of the leg's axis from the middle plane.
 Vector3d onSkirt(const Vector3d& p, double axis_x, double half_width, double half_depth) {
   const double side = p.x() > 0 ? 1.0 : -1.0;
   const Eigen::Vector2d origin(axis_x, 0);
@@ -140,16 +143,41 @@ Vector3d onSkirt(const Vector3d& p, double axis_x, double half_width, double hal
   const Eigen::Vector2d d = direction.cwiseProduct(scale);
   const double a = d.squaredNorm();
   const double b = o.dot(d);
-  double reach = (-b + std::sqrt(std::max(0.0, b * b - a * (o.squaredNorm() - 1.0)))) / a;
-  if (direction.x() < 0) reach = std::min(reach, (axis_x - kMiddleGap) / -direction.x());
-  return {side * (axis_x + reach * direction.x()), p.y(), reach * direction.y()};
+  const double on_ellipse = (-b + std::sqrt(std::max(0.0, b * b - a * (o.squaredNorm() - 1.0)))) / a;
+  const Eigen::Vector2d outside = origin + on_ellipse * direction;
+  if (outside.x() >= kMiddleGap) return {side * outside.x(), p.y(), outside.y()};
+  // Stretch the inner face to the corners, so that no slit is left where the two halves meet.
+  const double corner =
+      half_depth * std::sqrt(std::max(0.0, 1.0 - kMiddleGap * kMiddleGap / (half_width * half_width)));
+  const double z = direction.y() * (axis_x - kMiddleGap) / -direction.x();
+  return {side * kMiddleGap, p.y(), std::clamp(kInnerStretch * z, -corner, corner)};
+}
+
+// The same skin with this share of each leg's weight moved to the other leg.
+BodySurface::Skin sharedByLegs(const BodySurface::Skin& skin, double share) {
+  constexpr std::array<std::array<int, 2>, 4> kPairs = {
+      {{static_cast<int>(Bone::RightFemur), static_cast<int>(Bone::LeftFemur)},
+       {static_cast<int>(Bone::RightTibia), static_cast<int>(Bone::LeftTibia)},
+       {static_cast<int>(Bone::RightFoot), static_cast<int>(Bone::LeftFoot)},
+       {kRightFemurUntwisted, kLeftFemurUntwisted}}};
+  DenseWeights weights{};
+  for (std::size_t i = 0; i < 4; ++i) weights[skin.bone[i]] += static_cast<double>(skin.weight[i]);
+  for (const auto& pair : kPairs) {
+    double& right = weights[static_cast<std::size_t>(pair[0])];
+    double& left = weights[static_cast<std::size_t>(pair[1])];
+    const double flow = share * (left - right);
+    right += flow;
+    left -= flow;
+  }
+  return packedWeights(weights);
 }
 
 class Skirt {
  public:
   Skirt(const BodySurface& body, const Clothing& clothing)
       : l_(body.skeleton.lengths), clothing_(clothing), hips_(hipExtent(body)) {}
-  void drape(Vector3d& p) const {
+  // Moves a vertex onto the skirt and ties it to both legs there.
+  void drape(Vector3d& p, BodySurface::Skin& skin) const {
     const double leg = l_.upper_leg + l_.lower_leg;
     const double down = (-l_.hip_drop - p.y()) / leg;
     const double share =
@@ -161,6 +189,8 @@ class Skirt {
     const double axis = std::copysign(0.5 * l_.hip_width, p.x());
     const double skin_radius = std::hypot(p.x() - axis, p.z());
     if (std::hypot(cloth.x() - axis, cloth.z()) > skin_radius) p += share * (cloth - p);
+    const double far_side = std::clamp(std::abs(p.x()) / (0.8 * hips_.x()), 0.0, 1.0);
+    skin = sharedByLegs(skin, share * 0.5 * (1.0 - far_side * far_side));
   }
 
  private:
@@ -182,7 +212,7 @@ void dress(BodySurface& body, const Clothing& clothing) {
     const Vector3d skin = body.vertices[i].cast<double>();
     const double unevenness = 1.0 + clothing.wrinkles * folds.at(skin);
     Vector3d p = skin + normals[i].cast<double>() * (wardrobe.distance(skin) * unevenness);
-    if (clothing.skirt_length > 0) skirt.drape(p);
+    if (clothing.skirt_length > 0) skirt.drape(p, body.skin[i]);
     if (skin.y() < crotch_y && p.x() * std::copysign(1.0, skin.x()) < kMiddleGap) {
       p.x() = std::copysign(std::min(kMiddleGap, std::abs(skin.x())), skin.x());
     }

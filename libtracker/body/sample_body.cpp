@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libtracker/body/builtin_body.h"
+#include "libtracker/body/clothing.h"
+
 namespace depthmocap {
 namespace {
 
@@ -45,6 +48,14 @@ MakeHumanShape sampleMakeHumanShape(Random& random) {
   shape.caucasian = 0.05 + random.uniform() * random.uniform();
   shape.stature_m = sampleStature(random, man ? Sex::Male : Sex::Female);
   return shape;
+}
+
+BodySurface sampleDressedBody(Random& random, const MakeHumanModel* makehuman) {
+  const bool from_makehuman = makehuman != nullptr && random.uniform() < 0.5;
+  BodySurface body =
+      from_makehuman ? makehuman->make(sampleMakeHumanShape(random)) : makeBuiltinBody(sampleBodyShape(random));
+  dress(body, sampleClothing(random));
+  return body;
 }
 
 }  // namespace depthmocap

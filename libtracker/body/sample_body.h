@@ -12,4 +12,8 @@ BodyShape sampleBodyShape(Random& random);
 // The same for MakeHuman's macros: mostly clear sexes, ages 25 .. 85, mixed races, statures as above.
 MakeHumanShape sampleMakeHumanShape(Random& random);
 
+// A random person in random clothes: a built-in body, or with a model one of MakeHuman's for every second person.
+// `makehuman` may be null.
+BodySurface sampleDressedBody(Random& random, const MakeHumanModel* makehuman);
+
 }  // namespace depthmocap

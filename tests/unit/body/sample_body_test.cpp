@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "libtracker/core/parallel.h"
+#include "tests/unit/body/body_checks.h"
+
 namespace depthmocap {
 namespace {
 
@@ -53,6 +56,25 @@ TEST(SampleBody, TheSameSeedGivesTheSamePeople) {
     EXPECT_EQ(sampleBodyShape(a).weight_kg, sampleBodyShape(b).weight_kg);
     EXPECT_EQ(sampleMakeHumanShape(a).weight, sampleMakeHumanShape(b).weight);
   }
+}
+
+TEST(SampleBody, DressedPeopleDoNotDependOnThreads) {
+  const auto people = [](int threads) {
+    std::vector<BodySurface> bodies(3);
+    parallelFor(threads, bodies.size(), [&](std::size_t i) {
+      Random random(i);
+      bodies[i] = sampleDressedBody(random, nullptr);
+    });
+    return bodies;
+  };
+  const std::vector<BodySurface> serial = people(1);
+  const std::vector<BodySurface> parallel = people(3);
+  for (std::size_t i = 0; i < serial.size(); ++i) {
+    EXPECT_EQ(openEdges(serial[i]), 0U);
+    ASSERT_EQ(serial[i].vertices.size(), parallel[i].vertices.size());
+    EXPECT_TRUE(std::equal(serial[i].vertices.begin(), serial[i].vertices.end(), parallel[i].vertices.begin()));
+  }
+  EXPECT_NE(serial[0].vertices.size(), serial[1].vertices.size());
 }
 
 }  // namespace
