@@ -1,0 +1,71 @@
+#include "forest/train/forest_trainer.h"
+
+#include <fmt/format.h>
+
+#include "forest/train/image_store.h"
+#include "forest/train/training_checkpoint.h"
+#include "forest/train/tree_trainer.h"
+#include "libtracker/core/check.h"
+#include "libtracker/core/error.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr double kRenderShare = 0.3;  // of all work, roughly
+constexpr std::uint64_t kTreeSeedStep = 0x9E3779B97F4A7C15ULL;
+
+// Everything that the trees depend on.
+std::string fingerprint(const TrainingImageSource& source, const ForestTrainingOptions& o) {
+  const FeatureOptions& f = o.tree.features;
+  return fmt::format(
+      "{}; {} images, {} pixels, depth {}, {} offsets of {} .. {}, {} at the center, {} candidates, leaves >= {}, "
+      "nodes <= {}, "
+      "{} samples a node, {} a batch, {} trees, seed {}",
+      source.description(), source.count(), o.tree.pixels_per_image, o.tree.depth, f.offsets, f.min_offset,
+      f.max_offset, f.center_share, o.tree.candidates, o.tree.min_leaf, o.tree.max_nodes, o.tree.node_samples,
+      o.tree.batch_samples, o.trees, o.seed);
+}
+
+}  // namespace
+
+void ForestTrainingOptions::validate() const {
+  tree.validate();
+  if (trees < 1 || trees > 64) throw Error(fmt::format("{} does not satisfy: 1 .. 64", trees), "trees");
+  if (threads < 1) throw Error(fmt::format("{} does not satisfy: >= 1", threads), "threads");
+  if (resume && checkpoint.empty()) throw Error("nothing to resume from", "resume", "name the checkpoint");
+}
+
+std::vector<TrainedTree> trainForest(TrainingImageSource& source, const ForestTrainingOptions& options,
+                                     const TrainingProgress& progress) {
+  options.validate();
+  if (source.count() == 0) throw Error("no training images", source.description(), "ask for at least one image");
+  const std::string identity = fingerprint(source, options);
+  std::vector<TrainedTree> trees;
+  if (options.resume) trees = loadCheckpoint(options.checkpoint, identity);
+  trees.resize(static_cast<std::size_t>(options.trees));
+
+  ImageStore images(source, options.seed, options.memory_bytes, options.threads,
+                    [&](double done) { progress("rendering", kRenderShare * done); });
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    const std::string stage = fmt::format("tree {} of {}", t + 1, trees.size());
+    const auto finished_level = [&](int level) {
+      if (!options.checkpoint.empty()) saveCheckpoint(options.checkpoint, identity, trees);
+      const double share = (static_cast<double>(t) + (level + 1.0) / options.tree.depth) / options.trees;
+      progress(stage, kRenderShare + (1 - kRenderShare) * share);
+    };
+    growTree(images, options.tree, options.seed + (t + 1) * kTreeSeedStep, options.threads, trees[t], finished_level);
+  }
+  return trees;
+}
+
+Forest finishedForest(const std::vector<TrainedTree>& trained, std::size_t trees, int max_depth, int probability_steps,
+                      const std::string& origin) {
+  DMC_CHECK(trees >= 1 && trees <= trained.size());
+  Forest forest;
+  forest.origin = origin;
+  for (std::size_t t = 0; t < trees; ++t)
+    forest.trees.push_back(finishedTree(trained[t], max_depth, probability_steps));
+  return forest;
+}
+
+}  // namespace depthmocap

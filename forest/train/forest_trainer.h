@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "forest/train/trained_tree.h"
+#include "forest/train/training_image.h"
+#include "forest/train/tree_options.h"
+#include "libtracker/classify/forest.h"
+
+namespace depthmocap {
+
+struct ForestTrainingOptions {
+  TreeOptions tree;
+  int trees = 3;           // (1 .. 64)
+  std::uint64_t seed = 1;  // of pixels, mirroring and features
+  int threads = 1;         // (>= 1)
+  std::size_t memory_bytes =
+      8'000'000'000ULL;              // [byte] of images kept in memory; the others are rendered again and again
+  std::filesystem::path checkpoint;  // a file, written after every level; empty = none
+  bool resume = false;               // go on from the checkpoint where there is one
+  void validate() const;             // throws Error naming field, value and rule
+};
+
+// What is being done ("rendering", "tree 1 of 3") and how much of all work is done, in [0, 1]. Called from any thread.
+using TrainingProgress = std::function<void(const std::string& stage, double done)>;
+
+// Trains the trees one after the other. The same trees for any number of threads, and whether interrupted or not.
+// Throws Error for options, the source's failures, and a checkpoint that cannot be written or belongs to another
+// training.
+std::vector<TrainedTree> trainForest(TrainingImageSource& source, const ForestTrainingOptions& options,
+                                     const TrainingProgress& progress);
+
+// The first `trees` trees cut off at `max_depth`, with probabilities in `probability_steps` steps.
+Forest finishedForest(const std::vector<TrainedTree>& trained, std::size_t trees, int max_depth, int probability_steps,
+                      const std::string& origin);
+
+}  // namespace depthmocap

@@ -1,0 +1,118 @@
+#include "forest/train/pose_pool.h"
+
+#include <algorithm>
+#include <array>
+
+#include "libtracker/core/check.h"
+#include "libtracker/skeleton/joint_limits.h"
+
+namespace depthmocap {
+namespace {
+
+using StoredPose = PosePool::StoredPose;
+
+// FNV-1a
+std::uint32_t hashOf(std::string_view text) {
+  std::uint32_t hash = 0x811C9DC5U;
+  for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x01000193U;
+  return hash;
+}
+
+// Where the actor stands and looks is drawn for every picture.
+StoredPose withoutPlace(StoredPose q) {
+  for (const int dof : {kRootTx, kRootTy, kRootTz, kRootRy}) q[dof] = 0;
+  return q;
+}
+
+class Thinning {
+ public:
+  Thinning(double min_change, PosePool& pool) : min_change_(static_cast<float>(min_change)), pool_(pool) {}
+  void add(const StoredPose& q) {
+    if (!empty_ && (q - last_).cwiseAbs().maxCoeff() < min_change_) return;
+    last_ = q;
+    empty_ = false;
+    pool_.poses.push_back(q);
+  }
+
+ private:
+  float min_change_;
+  PosePool& pool_;
+  StoredPose last_ = StoredPose::Zero();
+  bool empty_ = true;
+};
+
+void describe(const std::string& origin, std::size_t poses_before, PosePool& pool) {
+  pool.description += (pool.description.empty() ? "" : " + ") + std::to_string(pool.poses.size() - poses_before) +
+                      " poses of " + origin;
+}
+
+constexpr std::array<int, 6> kRightArm = {kRclavicleRy, kRclavicleRz, kRhumerusRx,
+                                          kRhumerusRy,  kRhumerusRz,  kRradiusRy};
+constexpr std::array<int, 6> kLeftArm = {kLclavicleRy, kLclavicleRz, kLhumerusRx, kLhumerusRy, kLhumerusRz, kLradiusRy};
+
+}  // namespace
+
+bool HeldOutMotions::contains(std::string_view motion) const {
+  if (names_.empty()) return hashOf(motion) % 10 == 0;
+  return std::find(names_.begin(), names_.end(), motion) != names_.end();
+}
+
+void addPoses(const PoseDatabase& database, const HeldOutMotions& held_out, PoseUse use, double min_change,
+              PosePool& pool) {
+  const std::size_t before = pool.poses.size();
+  for (const auto& source : database.sources) {
+    if (held_out.contains(source.name) != (use == PoseUse::Validate)) continue;
+    Thinning thinning(min_change, pool);
+    for (std::uint32_t i = 0; i < source.count; ++i) thinning.add(withoutPlace(database.poses[source.first + i]));
+  }
+  describe(database.origin, before, pool);
+}
+
+void addPoses(const std::vector<MotionClip>& motions, const HeldOutMotions& held_out, PoseUse use, double min_change,
+              PosePool& pool) {
+  const std::size_t before = pool.poses.size();
+  for (const MotionClip& motion : motions) {
+    if (held_out.contains(motion.name) != (use == PoseUse::Validate)) continue;
+    Thinning thinning(min_change, pool);
+    for (const Pose& q : motion.poses) thinning.add(withoutPlace(q.cast<float>()));
+  }
+  describe("procedural motions", before, pool);
+}
+
+Pose drawPose(const PosePool& pool, const PoseVariation& variation, Random& random) {
+  DMC_CHECK(!pool.poses.empty());
+  const auto any = [&]() -> const StoredPose& {
+    return pool.poses[random.below(static_cast<std::uint32_t>(pool.poses.size()))];
+  };
+  StoredPose q = any();
+  if (random.uniform() < variation.mix_share) {
+    const StoredPose right = any();
+    const StoredPose left = any();
+    for (const int dof : kRightArm) q[dof] = right[dof];
+    for (const int dof : kLeftArm) q[dof] = left[dof];
+  }
+  Pose result = q.cast<double>();
+  for (int dof = kFirstBodyDof; dof < kDofCount; ++dof) result[dof] += variation.jitter * random.normal();
+  return clampedToLimits(result);
+}
+
+Pose drawTPose(Random& random) {
+  Pose q = Pose::Zero();
+  const auto vary = [&](int dof, double mean, double deviation) { q[dof] = mean + deviation * random.normal(); };
+  for (int dof = kFirstBodyDof; dof < kDofCount; ++dof) vary(dof, 0, 0.05);
+  for (const int dof : {kRootRx, kRootRz}) vary(dof, 0, 0.04);
+  // Arms a little down and forward; both mirror images of one another on average.
+  const double level = 0.10 * random.normal();
+  vary(kRhumerusRz, 0.03 + level, 0.08);
+  vary(kLhumerusRz, -0.03 - level, 0.08);
+  for (const int dof : {kRhumerusRy, kLhumerusRy}) vary(dof, 0, 0.12);
+  for (const int dof : {kRhumerusRx, kLhumerusRx}) vary(dof, 0, 0.5);
+  q[kRradiusRy] = std::abs(0.15 * random.normal());
+  q[kLradiusRy] = -std::abs(0.15 * random.normal());
+  const double stance = std::abs(0.12 * random.normal());
+  vary(kRfemurRz, -stance, 0.03);
+  vary(kLfemurRz, stance, 0.03);
+  return clampedToLimits(q);
+}
+
+}  // namespace depthmocap

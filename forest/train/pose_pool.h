@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libtracker/core/random.h"
+#include "libtracker/posedb/pose_database.h"
+#include "libtracker/skeleton/motion_clip.h"
+
+namespace depthmocap {
+
+// Poses to render, free of place and heading, without near duplicates.
+struct PosePool {
+  using StoredPose = Eigen::Matrix<float, kDofCount, 1>;
+  std::vector<StoredPose> poses;
+  std::string description;  // changes with the poses
+};
+
+// What is left out of training, for measuring: motions by name; with none named, every motion whose name falls into a
+// tenth of all by its hash.
+class HeldOutMotions {
+ public:
+  explicit HeldOutMotions(std::vector<std::string> names = {}) : names_(std::move(names)) {}
+  [[nodiscard]] bool contains(std::string_view motion) const;
+
+ private:
+  std::vector<std::string> names_;
+};
+
+enum class PoseUse { Train, Validate };
+
+// Adds the poses of a database or of motions that are for this use. Of a motion's poses those are kept that differ from
+// the last one kept by min_change [rad] in some angle.
+void addPoses(const PoseDatabase& database, const HeldOutMotions& held_out, PoseUse use, double min_change,
+              PosePool& pool);
+void addPoses(const std::vector<MotionClip>& motions, const HeldOutMotions& held_out, PoseUse use, double min_change,
+              PosePool& pool);
+
+// How a pose of the pool is varied before it is rendered.
+struct PoseVariation {
+  double mix_share = 0.35;  // [0, 1] of the poses whose arms come from another pose, each arm by itself
+  double jitter = 0.06;     // [rad] standard deviation of every angle of the body
+};
+
+// A random pose of the pool (not empty), varied, within the joint limits.
+Pose drawPose(const PosePool& pool, const PoseVariation& variation, Random& random);
+
+// A random T-pose as people stand it: arms not quite level, elbows not quite straight.
+Pose drawTPose(Random& random);
+
+}  // namespace depthmocap

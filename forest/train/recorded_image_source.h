@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "forest/train/training_image.h"
+#include "libtracker/recording/recording.h"
+
+namespace depthmocap {
+
+// The frames of a recording with true labels in truth/labels (a synthesised one). Only labelled pixels are the actor.
+class RecordedImageSource : public TrainingImageSource {
+ public:
+  // Every step-th frame from the first (step >= 1). Throws Error where there are no labels.
+  RecordedImageSource(const std::filesystem::path& recording, std::size_t step);
+
+  [[nodiscard]] std::size_t count() const override;
+  [[nodiscard]] std::string description() const override { return "recording " + path_.filename().string(); }
+  void render(std::size_t i, TrainingImage& image) override;
+
+ private:
+  std::filesystem::path path_;
+  std::size_t step_;
+  std::mutex mutex_;  // a reader is not for several threads
+  std::unique_ptr<RecordingReader> reader_;
+};
+
+// The parts in their colours (kPartColors) as PNG, for people to look at.
+void writeColouredLabels(const PartImage& labels, const std::filesystem::path& path);
+
+}  // namespace depthmocap

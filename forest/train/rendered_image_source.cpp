@@ -1,0 +1,76 @@
+#include "forest/train/rendered_image_source.h"
+
+#include <fmt/format.h>
+
+#include "libtracker/body/builtin_body.h"
+#include "libtracker/body/sample_body.h"
+#include "libtracker/core/error.h"
+#include "libtracker/core/parallel.h"
+#include "libtracker/core/random.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr std::uint64_t kBodyStream = 0x424F;
+constexpr std::uint64_t kViewStream = 0x5649;
+constexpr double kTPoseFacingRange = 0.5;  // [rad] an actor who is asked for a T-pose looks at the camera
+
+}  // namespace
+
+std::vector<BodySurface> makeBodyPool(const BodyPoolOptions& options, int threads) {
+  if (options.count < 1) throw Error("at least one body is needed", "bodies");
+  std::vector<BodySurface> bodies(static_cast<std::size_t>(options.count));
+  parallelFor(threads, bodies.size(), [&](std::size_t i) {
+    Random random(options.seed + i, kBodyStream);
+    bodies[i] = makeBuiltinBody(sampleBodyShape(random));
+  });
+  return bodies;
+}
+
+RenderedImageSource::RenderedImageSource(const std::vector<BodySurface>& bodies, const PosePool& poses,
+                                         const RenderedImageOptions& options)
+    : bodies_(bodies), poses_(poses), options_(options) {
+  if (!options.t_poses && poses.poses.empty()) {
+    throw Error("no poses to render", "poses", "name a pose database with --posedb or use --procedural");
+  }
+  if (options_.t_poses) {
+    options_.view.facing_share = 1.0;
+    options_.view.facing_range = kTPoseFacingRange;
+  }
+}
+
+std::string RenderedImageSource::description() const {
+  return fmt::format("{} images of {} bodies, {}, seed {}", options_.count, bodies_.size(),
+                     options_.t_poses ? "T-poses" : poses_.description, options_.seed);
+}
+
+void RenderedImageSource::render(std::size_t i, TrainingImage& image) {
+  Random random(options_.seed + i, kViewStream);
+  const BodySurface& body = bodies_[random.below(static_cast<std::uint32_t>(bodies_.size()))];
+  const Pose q = options_.t_poses ? drawTPose(random) : drawPose(poses_, options_.variation, random);
+  TrainingView view;
+  auto renderer = takeRenderer();
+  renderer->render(body, q, random, view);
+  giveBack(std::move(renderer));
+  for (std::size_t p = 0; p < view.depth.data.size(); ++p) {
+    if (view.parts.data[p] == 0) view.depth.data[p] = 0;
+  }
+  image.depth = std::move(view.depth);
+  image.labels = std::move(view.parts);
+  image.focal_px = view.camera.fx;
+}
+
+std::unique_ptr<TrainingViewRenderer> RenderedImageSource::takeRenderer() {
+  const std::lock_guard lock(mutex_);
+  if (idle_.empty()) return std::make_unique<TrainingViewRenderer>(options_.view);
+  auto renderer = std::move(idle_.back());
+  idle_.pop_back();
+  return renderer;
+}
+
+void RenderedImageSource::giveBack(std::unique_ptr<TrainingViewRenderer> renderer) {
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(renderer));
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,53 @@
+#pragma once
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "forest/render/training_view.h"
+#include "forest/train/pose_pool.h"
+#include "forest/train/training_image.h"
+#include "libtracker/body/body_surface.h"
+
+namespace depthmocap {
+
+// Bodies to render, made once: half of them from each family where there are two.
+struct BodyPoolOptions {
+  int count = 200;               // (>= 1)
+  std::string makehuman_folder;  // of the MakeHuman base mesh; empty = built-in bodies only
+  std::uint64_t seed = 1;
+};
+std::vector<BodySurface> makeBodyPool(const BodyPoolOptions& options, int threads);
+
+struct RenderedImageOptions {
+  std::size_t count = 20000;
+  std::uint64_t seed = 1;
+  TrainingViewConfig view;
+  PoseVariation variation;
+  bool t_poses = false;  // T-poses instead of those of the pool, facing the camera
+};
+
+// Random views of random bodies in random poses. Image i depends on the options, the bodies, the poses and i alone.
+class RenderedImageSource : public TrainingImageSource {
+ public:
+  // `bodies` and `poses` must outlive the source. Throws Error where there is no pose and none is a T-pose.
+  RenderedImageSource(const std::vector<BodySurface>& bodies, const PosePool& poses,
+                      const RenderedImageOptions& options);
+
+  [[nodiscard]] std::size_t count() const override { return options_.count; }
+  [[nodiscard]] std::string description() const override;
+  void render(std::size_t i, TrainingImage& image) override;
+  [[nodiscard]] const RenderedImageOptions& options() const { return options_; }
+
+ private:
+  std::unique_ptr<TrainingViewRenderer> takeRenderer();
+  void giveBack(std::unique_ptr<TrainingViewRenderer> renderer);
+
+  const std::vector<BodySurface>& bodies_;
+  const PosePool& poses_;
+  RenderedImageOptions options_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TrainingViewRenderer>> idle_;  // one a thread that has been here
+};
+
+}  // namespace depthmocap
