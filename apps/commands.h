@@ -8,5 +8,7 @@ class App;
 namespace depthmocap {
 
 void addEvaluateCommand(CLI::App& app);
+void addReplayCommand(CLI::App& app);
+void addSynthesizeCommand(CLI::App& app);
 
 }  // namespace depthmocap

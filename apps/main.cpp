@@ -18,7 +18,9 @@ constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
 void addCommands(CLI::App& app) {
+  addReplayCommand(app);
   addEvaluateCommand(app);
+  addSynthesizeCommand(app);
 }
 
 int failure(std::string message) {

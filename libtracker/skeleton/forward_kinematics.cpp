@@ -151,7 +151,9 @@ void ForwardKinematics::jacobian(const BonePoint& point, PointJacobian& J) const
   }
 }
 
-Matrix3d localRotation(Bone bone, const Pose& q) { return localOf(bone, q).R; }
+Matrix3d localRotation(Bone bone, const Pose& q) {
+  return localOf(bone, q).R;
+}
 
 double setLocalRotation(Bone bone, const Matrix3d& R, Pose& q) {
   const BoneDofs& dofs = kBoneDofs[static_cast<std::size_t>(bone)];
@@ -222,9 +224,9 @@ Pose mirroredPose(const Pose& q) {
   swap(kRfemurRx, kLfemurRx, 3);
   swap(kRtibiaRx, kLtibiaRx, 1);
   swap(kRfootRx, kLfootRx, 2);
-  negate({kRootTx, kRootRy, kRootRz, kUpperbackRy, kUpperbackRz, kRclavicleRy, kRclavicleRz, kLclavicleRy, kLclavicleRz,
-          kRhumerusRy, kRhumerusRz, kLhumerusRy, kLhumerusRz, kRradiusRy, kLradiusRy, kNeckRz, kHeadRy, kRfemurRy,
-          kRfemurRz, kLfemurRy, kLfemurRz, kRfootRy, kLfootRy});
+  negate({kRootTx,      kRootRy,     kRootRz,     kUpperbackRy, kUpperbackRz, kRclavicleRy, kRclavicleRz, kLclavicleRy,
+          kLclavicleRz, kRhumerusRy, kRhumerusRz, kLhumerusRy,  kLhumerusRz,  kRradiusRy,   kLradiusRy,   kNeckRz,
+          kHeadRy,      kRfemurRy,   kRfemurRz,   kLfemurRy,    kLfemurRz,    kRfootRy,     kLfootRy});
   return m;
 }
 

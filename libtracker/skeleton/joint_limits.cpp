@@ -16,13 +16,13 @@ struct RangeDeg {
   double upper;
 };
 
-// Ranges of the right side and the middle of the body [deg], generous ends of the clinical ranges (Norkin and White 2016),
-// so that they exclude impossible poses and nothing that dancers do.
+// Ranges of the right side and the middle of the body [deg], generous ends of the clinical ranges (Norkin and White
+// 2016), so that they exclude impossible poses and nothing that dancers do.
 constexpr RangeDeg kRanges[] = {
-    {kUpperbackRx, -45, 90}, {kUpperbackRy, -60, 60},  {kUpperbackRz, -50, 50},  {kRclavicleRy, -35, 45},
-    {kRclavicleRz, -50, 25}, {kRhumerusRx, -110, 110}, {kRhumerusRy, -70, 150},  {kRhumerusRz, -120, 120},
-    {kRradiusRy, -5, 155},   {kNeckRx, -60, 70},       {kNeckRz, -50, 50},       {kHeadRy, -85, 85},
-    {kRfemurRx, -150, 60},   {kRfemurRy, -60, 60},     {kRfemurRz, -100, 50},    {kRtibiaRx, -8, 160},
+    {kUpperbackRx, -45, 90}, {kUpperbackRy, -60, 60},  {kUpperbackRz, -50, 50}, {kRclavicleRy, -35, 45},
+    {kRclavicleRz, -50, 25}, {kRhumerusRx, -110, 110}, {kRhumerusRy, -70, 150}, {kRhumerusRz, -120, 120},
+    {kRradiusRy, -5, 155},   {kNeckRx, -60, 70},       {kNeckRz, -50, 50},      {kHeadRy, -85, 85},
+    {kRfemurRx, -150, 60},   {kRfemurRy, -60, 60},     {kRfemurRz, -100, 50},   {kRtibiaRx, -8, 160},
     {kRfootRx, -50, 75},     {kRfootRy, -50, 50},
 };
 
@@ -55,6 +55,8 @@ const JointLimits& jointLimits() {
   return limits;
 }
 
-Pose clampedToLimits(const Pose& q) { return q.cwiseMax(jointLimits().lower).cwiseMin(jointLimits().upper); }
+Pose clampedToLimits(const Pose& q) {
+  return q.cwiseMax(jointLimits().lower).cwiseMin(jointLimits().upper);
+}
 
 }  // namespace depthmocap

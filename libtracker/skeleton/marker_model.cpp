@@ -2,28 +2,33 @@
 
 namespace depthmocap {
 
+// Offsets along a bone are shares of its length, all others [m] on the average body (statureOf(BoneLengths{})). They
+// and the radii are the least-squares fit of `forest markers` over rendered bodies: MeanShift mode + radius * viewing
+// ray.
 MarkerModel averageMarkerModel(const Skeleton& s) {
   const BoneLengths& l = s.lengths;
-  const double up = l.torso - l.spine;
+  const double scale = statureOf(l) / statureOf(BoneLengths{});
   MarkerModel model;
   const auto set = [&](Part part, Bone bone, double x, double y, double z) {
     model[static_cast<std::size_t>(partIndex(part))] = {bone, Eigen::Vector3d(x, y, z)};
   };
-  set(Part::Head, Bone::Head, 0, s.head_center.y(), 0);
-  set(Part::Neck, Bone::Neck, 0, 0.25 * l.neck_to_head, 0);
-  set(Part::Torso, Bone::UpperBack, 0, 0.35 * up, 0);
+  set(Part::Head, Bone::Head, 0, 1.06 * s.head_center.y(), 0.015 * scale);
+  set(Part::Neck, Bone::Neck, 0, 0.22 * l.neck_to_head, -0.011 * scale);
+  set(Part::Torso, Bone::UpperBack, 0, 0.297 * (l.torso - l.spine), 0.009 * scale);
   const auto side = [&](double sign, bool left) {
+    const Bone humerus = left ? Bone::LeftHumerus : Bone::RightHumerus;
     set(left ? Part::LeftShoulder : Part::RightShoulder, left ? Bone::LeftClavicle : Bone::RightClavicle,
-        s.offset[static_cast<std::size_t>(left ? Bone::LeftHumerus : Bone::RightHumerus)].x(), -0.5 * l.shoulder_drop, 0);
-    set(left ? Part::LeftUpperArm : Part::RightUpperArm, left ? Bone::LeftHumerus : Bone::RightHumerus,
-        sign * 0.6 * l.upper_arm, 0, 0);
+        0.907 * s.offset[static_cast<std::size_t>(humerus)].x(), -0.026 * scale, 0.003 * scale);
+    set(left ? Part::LeftUpperArm : Part::RightUpperArm, humerus, sign * 0.608 * l.upper_arm, 0.004 * scale,
+        0.002 * scale);
     set(left ? Part::LeftLowerArm : Part::RightLowerArm, left ? Bone::LeftRadius : Bone::RightRadius,
-        sign * 0.65 * l.lower_arm, 0, 0);
-    set(left ? Part::LeftWaist : Part::RightWaist, Bone::Root, sign * 0.45 * l.hip_width, 0, 0);
-    set(left ? Part::LeftUpperLeg : Part::RightUpperLeg, left ? Bone::LeftFemur : Bone::RightFemur, 0,
-        -0.55 * l.upper_leg, 0);
+        sign * 0.436 * l.lower_arm, 0, 0);
+    set(left ? Part::LeftWaist : Part::RightWaist, Bone::Root, sign * 0.470 * l.hip_width, 0.013 * scale,
+        0.004 * scale);
+    set(left ? Part::LeftUpperLeg : Part::RightUpperLeg, left ? Bone::LeftFemur : Bone::RightFemur,
+        sign * 0.005 * scale, -0.495 * l.upper_leg, 0.003 * scale);
     set(left ? Part::LeftLowerLeg : Part::RightLowerLeg, left ? Bone::LeftTibia : Bone::RightTibia, 0,
-        -0.5 * l.lower_leg, 0);
+        -0.437 * l.lower_leg, -0.005 * scale);
   };
   side(1.0, true);
   side(-1.0, false);
@@ -32,8 +37,8 @@ MarkerModel averageMarkerModel(const Skeleton& s) {
 
 std::array<double, kPartCount> averagePartRadii(const Skeleton& s) {
   const double scale = statureOf(s.lengths) / statureOf(BoneLengths{});
-  std::array<double, kPartCount> radii{0.09, 0.06, 0.07, 0.07, 0.045, 0.045, 0.038, 0.038,
-                                       0.11, 0.11, 0.11, 0.075, 0.075, 0.052, 0.052};
+  std::array<double, kPartCount> radii{0.074, 0.064, 0.059, 0.059, 0.031, 0.031, 0.034, 0.034,
+                                       0.112, 0.102, 0.102, 0.074, 0.074, 0.045, 0.045};
   for (double& r : radii) r *= scale;
   return radii;
 }

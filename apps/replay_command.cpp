@@ -1,0 +1,114 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <limits>
+#include <memory>
+
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "apps/run_stats.h"
+#include "apps/shipped_files.h"
+#include "apps/track_options.h"
+#include "apps/track_outputs.h"
+#include "libtracker/core/error.h"
+#include "libtracker/recording/recording.h"
+#include "libtracker/tracker/tracker.h"
+
+namespace depthmocap {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct ReplayOptions {
+  fs::path recording;
+  TrackOptions track;
+  std::int64_t first = 0;
+  std::int64_t last = std::numeric_limits<std::int64_t>::max();
+};
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::shared_ptr<const TrackerModels> loadModels(const TrackOptions& options) {
+  const auto models = std::make_shared<TrackerModels>();
+  models->forest = loadForest(options.forest.empty() ? shippedFile("general.forest") : options.forest);
+  models->database = loadPoseDatabase(options.posedb.empty() ? shippedFile("default.posedb") : options.posedb);
+  return models;
+}
+
+TrackerConfig trackerConfig(const TrackOptions& options) {
+  TrackerConfig config;
+  config.threads = options.threads;
+  if (options.assumed_stature_m > 0) config.policy.assumed_stature_m = options.assumed_stature_m;
+  return config;
+}
+
+// A frame that cannot be read is a frame without measurement: the tracker coasts over it or loses the actor, and the
+// rest of the recording is still tracked.
+bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame, RunStats& stats) {
+  const auto start = Clock::now();
+  try {
+    reader.read(i, frame);
+  } catch (const Error& error) {
+    std::cerr << "depthmocap: warning: " << error.what() << "; frame counted as empty\n";
+    stats.addUnreadable();
+    frame.frame = reader.frameNumber(i);
+    frame.time_s = reader.time(i);
+    frame.depth.reset(reader.info().camera.width, reader.info().camera.height, 0.0F);
+    return false;
+  }
+  stats.addRead(millisecondsSince(start));
+  return true;
+}
+
+void replay(const ReplayOptions& options) {
+  const auto start = Clock::now();
+  const std::unique_ptr<RecordingReader> reader = openRecording(options.recording);
+  Tracker tracker(loadModels(options.track), reader->info().camera, trackerConfig(options.track));
+  TrackOutputs outputs(options.track, reader->info());
+  RunStats stats;
+  std::size_t readable = 0;
+  DepthFrame frame;
+  {
+    Progress progress("tracking", reader->frameCount());
+    for (std::size_t i = 0; i < reader->frameCount(); ++i) {
+      if (reader->frameNumber(i) < options.first || reader->frameNumber(i) > options.last) continue;
+      readable += readFrame(*reader, i, frame, stats) ? 1 : 0;
+      const TrackedFrame& tracked = tracker.process(frame);
+      stats.addFrame(tracked);
+      const auto write_start = Clock::now();
+      outputs.write(frame, tracked);
+      stats.addWrite(millisecondsSince(write_start));
+      progress.update(i + 1);
+    }
+  }
+  if (stats.frames() == 0) throw Error("no frame between --first and --last", options.recording.string());
+  if (readable == 0) throw Error("no frame of the recording can be read", options.recording.string());
+  outputs.finish(tracker.actor());
+  const double wall_s = millisecondsSince(start) / 1000.0;
+  if (!options.track.stats.empty()) stats.write(options.track.stats, wall_s, true);
+  std::cerr << "tracked " << stats.tracked() << " of " << stats.frames() << " frames\n";
+}
+
+}  // namespace
+
+void addReplayCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("replay", "Tracks a recording and writes the motion.");
+  const auto options = std::make_shared<ReplayOptions>();
+  command->add_option("recording", options->recording, "Recording: a depthmocap or TUM RGB-D folder")
+      ->type_name("REC")
+      ->required();
+  addTrackOptions(*command, options->track);
+  command->add_option("--first", options->first, "First frame number to track");
+  command->add_option("--last", options->last, "Last frame number to track");
+  command->footer(
+      "The same recording gives the same files, byte for byte, for any number of threads.\n"
+      "Example:\n"
+      "  depthmocap replay recordings/walk --bvh walk.bvh --joints joints.csv --preview walk.mp4");
+  command->callback([options] { replay(*options); });
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,26 @@
+#include "apps/track_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace depthmocap {
+
+void addTrackOptions(CLI::App& command, TrackOptions& o) {
+  command.add_option("--joints", o.joints, "Joint centres in the camera frame, CSV")->type_name("J.csv");
+  command.add_option("--pose", o.pose, "The 36 degrees of freedom a frame, CSV")->type_name("Q.csv");
+  command.add_option("--bvh", o.bvh, "Motion for animation programs, BVH in metres, y up")->type_name("M.bvh");
+  command.add_option("--labels", o.labels, "Folder for one body-part label image a frame, PNG")->type_name("DIR");
+  command.add_option("--preview", o.preview, "Film of the tracking beside a view from the side, MP4")
+      ->type_name("V.mp4");
+  command.add_option("--contact-sheet", o.contact_sheet, "Up to 12 preview pictures of the run on one sheet, PNG")
+      ->type_name("SHEET.png");
+  command.add_option("--stats", o.stats, "Counts and times of each stage, JSON")->type_name("S.json");
+  command.add_option("--forest", o.forest, "Body-part classifier (default: the one that comes with the build)");
+  command.add_option("--posedb", o.posedb, "Pose database (default: the one that comes with the build)");
+  command.add_option("--stature", o.assumed_stature_m, "Stature to start from without --actor [m]")
+      ->check(CLI::Range(1.0, 2.2));
+  command.add_option("--threads", o.threads, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace depthmocap {
+
+// Options that every tracking command shares; empty = not asked for.
+struct TrackOptions {
+  std::filesystem::path forest;
+  std::filesystem::path posedb;
+  std::filesystem::path joints;
+  std::filesystem::path pose;
+  std::filesystem::path bvh;
+  std::filesystem::path labels;
+  std::filesystem::path preview;
+  std::filesystem::path contact_sheet;
+  std::filesystem::path stats;
+  int threads = 2;
+  double assumed_stature_m = 0;  // [m] 0 = the tracker's default
+};
+
+void addTrackOptions(CLI::App& command, TrackOptions& options);
+
+}  // namespace depthmocap

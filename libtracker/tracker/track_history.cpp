@@ -1,0 +1,40 @@
+#include "libtracker/tracker/track_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace depthmocap {
+namespace {
+
+constexpr double kMaxStep_s = 0.1;  // a velocity is not believed for longer than this
+
+// The change from b to a; headings are angles on a circle.
+Pose difference(const Pose& a, const Pose& b) {
+  Pose d = a - b;
+  d[kRootRy] = std::remainder(d[kRootRy], 2.0 * std::numbers::pi);
+  return d;
+}
+
+}  // namespace
+
+Pose TrackHistory::prev2(double time_s) const {
+  return q_prev_ - velocity_ * std::clamp(time_s - time_s_, 0.0, kMaxStep_s);
+}
+
+void TrackHistory::accept(const Pose& q, double time_s, bool fresh) {
+  const double dt = time_s - time_s_;
+  velocity_ = fresh || dt <= 0 ? Pose(Pose::Zero()) : Pose(difference(q, q_prev_) / dt);
+  q_prev_ = q;
+  time_s_ = evidence_time_s_ = time_s;
+  state_ = TrackState::Tracking;
+}
+
+void TrackHistory::miss(double time_s, double coast_s) {
+  if (state_ == TrackState::Lost) return;
+  velocity_.setZero();
+  time_s_ = time_s;
+  state_ = time_s - evidence_time_s_ > coast_s ? TrackState::Lost : TrackState::Coasting;
+}
+
+}  // namespace depthmocap

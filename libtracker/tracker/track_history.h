@@ -1,0 +1,32 @@
+#pragma once
+#include "libtracker/core/track_state.h"
+#include "libtracker/skeleton/dof.h"
+
+namespace depthmocap {
+
+// The last two poses and how long the actor has been without evidence.
+class TrackHistory {
+ public:
+  [[nodiscard]] TrackState state() const { return state_; }
+  [[nodiscard]] bool hasPose() const { return state_ != TrackState::Lost; }
+  [[nodiscard]] const Pose& prev() const { return q_prev_; }
+  // q_-2 for a frame at `time_s`: shifted so that q_-1 - q_-2 is the change to expect until then, also where frames are
+  // missing or irregular.
+  [[nodiscard]] Pose prev2(double time_s) const;
+  // Constant-velocity guess for a frame at `time_s`.
+  [[nodiscard]] Pose predicted(double time_s) const { return 2.0 * q_prev_ - prev2(time_s); }
+
+  // A believed pose; `fresh` forgets the velocity (first pose, pose of a global search).
+  void accept(const Pose& q, double time_s, bool fresh);
+  // No evidence at `time_s`: the pose rests where it is; after coast_s the actor is lost.
+  void miss(double time_s, double coast_s);
+
+ private:
+  TrackState state_ = TrackState::Lost;
+  Pose q_prev_ = Pose::Zero();
+  Pose velocity_ = Pose::Zero();  // per second
+  double time_s_ = 0;             // of q_prev
+  double evidence_time_s_ = 0;    // of the last accepted pose
+};
+
+}  // namespace depthmocap

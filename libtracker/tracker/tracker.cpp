@@ -1,0 +1,233 @@
+#include "libtracker/tracker/tracker.h"
+
+#include "libtracker/markers/find_markers.h"
+#include "libtracker/posedb/pose_search.h"
+#include "libtracker/prior/local_prior_builder.h"
+#include "libtracker/segment/segment.h"
+#include "libtracker/solve/size_estimate.h"
+#include "libtracker/tracker/alignment.h"
+#include "libtracker/tracker/global_search.h"
+#include "libtracker/tracker/joint_confidence.h"
+#include "libtracker/tracker/size_adapter.h"
+#include "libtracker/tracker/stage_clock.h"
+#include "libtracker/tracker/track_history.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr int kFirstSizeRounds = 3;  // solve, rescale, solve again: the first size converges in this many rounds
+
+TrackerConfig withThreads(TrackerConfig config) {
+  config.validate();
+  config.classify.threads = config.threads;
+  return config;
+}
+
+}  // namespace
+
+// The stages, their working memory and what is known from the frames before.
+struct Tracker::Stages {
+  Stages(std::shared_ptr<const TrackerModels> m, const CameraModel& c, const TrackerConfig& cfg,
+         const std::optional<ActorModel>& given)
+      : models(std::move(m)),
+        camera(c),
+        config(withThreads(cfg)),
+        size(given ? *given : averageActor(averageBoneLengths(cfg.policy.assumed_stature_m)), given.has_value(),
+             cfg.policy.adapt_s),
+        search_stature_m(statureOf(size.actor().skeleton.lengths)),
+        segmenter(config.segment),
+        finder(config.markers),
+        search(models->database, size.actor().skeleton, size.actor().markers, config.search),
+        prior_builder(config.prior),
+        solver(config.solve),
+        global(config.prior.neighbours.back(), config.policy.start_poses) {}
+
+  void begin(const DepthFrame& frame);
+  void predict();
+  void buildPrior();
+  void solve();
+  bool solveFirst();
+  bool solveNext();
+  void finish();
+  [[nodiscard]] double searchScale() const { return statureOf(size.actor().skeleton.lengths) / search_stature_m; }
+  [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config.policy.max_rms_m; }
+  void observeSize(const Pose& q, double dt_s);
+
+  const std::shared_ptr<const TrackerModels> models;
+  const CameraModel camera;
+  const TrackerConfig config;
+  const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
+
+  SizeAdapter size;
+  const double search_stature_m;  // of the skeleton whose markers the search holds
+  TrackHistory history;
+
+  Segmenter segmenter;
+  MarkerFinder finder;
+  PoseSearch search;
+  LocalPriorBuilder prior_builder;
+  MapSolver solver;
+  GlobalSearch global;
+
+  // Of the present frame.
+  double dt_s = 0;
+  bool predicted = false;
+  Pose q_predicted = Pose::Zero();
+  MarkerSet predicted_camera;
+  Eigen::Vector3d predicted_centroid_camera = Eigen::Vector3d::Zero();
+  Segmentation segmentation;
+  ClassifiedPixels pixels;
+  MarkerSet markers_world;
+  std::vector<PoseNeighbour> neighbours;
+  LocalPrior prior;
+  MapSummary summary;
+  ForwardKinematics fk;
+  TrackedFrame out;
+};
+
+void Tracker::Stages::begin(const DepthFrame& frame) {
+  dt_s = out.time_s > 0 ? frame.time_s - out.time_s : 0.0;
+  out.frame = frame.frame;
+  out.time_s = frame.time_s;
+  out.reinitialised = false;
+  out.solver_iterations = 0;
+  out.rms_marker_m = 0;
+  predict();
+}
+
+// Where the markers are expected, from the poses before.
+void Tracker::Stages::predict() {
+  predicted = history.hasPose();
+  if (!predicted) return;
+  q_predicted = history.predicted(out.time_s);
+  predicted_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), q_predicted, fk));
+  predicted_centroid_camera = predicted_camera.position.col(partIndex(Part::Torso));
+}
+
+// (3) and (4): the nearest poses and the local model. Without history the global search does both.
+void Tracker::Stages::buildPrior() {
+  if (!predicted || markers_world.seenCount() < config.policy.min_markers) return;
+  PoseQuery query;
+  query.markers = markers_world;
+  query.has_history = true;
+  query.q_prev = history.prev();
+  query.q_prev2 = history.prev2(out.time_s);
+  query.heading = history.prev()[kRootRy];
+  query.scale = searchScale();
+  search.search(query, config.prior.neighbours.back(), neighbours);
+  prior_builder.build(models->database, neighbours, prior);
+}
+
+void Tracker::Stages::solve() {
+  const bool enough = markers_world.seenCount() >= config.policy.min_markers;
+  const bool found = enough && (predicted ? solveNext() : solveFirst());
+  if (!found) history.miss(out.time_s, config.policy.coast_s);
+}
+
+// The first pose, or the first after a loss: global search. An unknown actor's size is fitted to it at once.
+bool Tracker::Stages::solveFirst() {
+  const GlobalSearch::Result* found = nullptr;
+  for (int round = 0; round < kFirstSizeRounds; ++round) {
+    found = &global.find(markers_world, searchScale(), size.actor(), models->database, search, prior_builder, solver);
+    if (!found->found || !size.adapting()) break;
+    fk.update(size.actor().skeleton, found->q);
+    const SizeEstimate estimate = estimateSize(fk, size.actor().markers, markers_world);
+    if (!estimate.valid) break;
+    size.rescale(estimate.scale);
+  }
+  if (!found->found || !believed(found->summary)) return false;
+  summary = found->summary;
+  history.accept(found->q, out.time_s, true);
+  out.reinitialised = true;
+  return true;
+}
+
+// (5) from the pose before; where that fits badly, a global search competes with it.
+bool Tracker::Stages::solveNext() {
+  Pose q = q_predicted;
+  const Pose q_prev2 = history.prev2(out.time_s);
+  const ActorModel& actor = size.actor();
+  summary = solver.solve({actor.skeleton, actor.markers, markers_world, &prior, &history.prev(), &q_prev2}, q);
+  if (summary.rms_marker_m > config.policy.suspect_rms_m) {
+    const auto& other =
+        global.find(markers_world, searchScale(), actor, models->database, search, prior_builder, solver);
+    if (other.found && other.summary.energy < config.policy.switch_gain *
+                                                  (summary.energy - config.solve.lambda_smooth * summary.e_smooth)) {
+      summary = other.summary;
+      q = other.q;
+      out.reinitialised = true;
+    }
+  }
+  if (!believed(summary)) return false;
+  history.accept(q, out.time_s, out.reinitialised);
+  observeSize(q, dt_s);
+  return true;
+}
+
+void Tracker::Stages::observeSize(const Pose& q, double seconds) {
+  if (!size.adapting()) return;
+  fk.update(size.actor().skeleton, q);
+  const SizeEstimate estimate = estimateSize(fk, size.actor().markers, markers_world);
+  if (estimate.valid) size.observe(estimate.scale, seconds);
+}
+
+// What the caller sees of the frame.
+void Tracker::Stages::finish() {
+  out.state = history.state();
+  out.stature_m = statureOf(size.actor().skeleton.lengths);
+  out.confidence.setZero();
+  if (out.state == TrackState::Lost) return;
+  out.q = history.prev();
+  out.model_markers_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), out.q, fk));
+  const auto points = jointPoints(size.actor().skeleton);
+  for (int j = 0; j < kJointCount; ++j) {
+    out.joints_camera.col(j) = R_world_camera.transpose() * fk.position(points[static_cast<std::size_t>(j)]);
+  }
+  if (out.state != TrackState::Tracking) return;
+  out.confidence = jointConfidence(out.markers_camera, out.model_markers_camera);
+  out.rms_marker_m = summary.rms_marker_m;
+  out.solver_iterations = summary.iterations;
+}
+
+Tracker::Tracker(std::shared_ptr<const TrackerModels> models, const CameraModel& camera, const TrackerConfig& config,
+                 const std::optional<ActorModel>& actor)
+    : stages_(std::make_unique<Stages>(std::move(models), camera, config, actor)) {}
+
+Tracker::~Tracker() = default;
+
+const ActorModel& Tracker::actor() const {
+  return stages_->size.actor();
+}
+
+// The method on one page (Su, Chai, Xia 2016); equation numbers as in docs/architecture.md.
+const TrackedFrame& Tracker::process(const DepthFrame& frame) {
+  Stages& s = *stages_;
+  StageClock clock(s.out.ms);
+  s.begin(frame);
+
+  s.segmenter.segment(frame.depth, s.camera, s.predicted ? &s.predicted_centroid_camera : nullptr, s.segmentation);
+  clock.lap(&StageTimes::segment);
+
+  // (1) a body part for each pixel
+  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.config.classify, s.pixels);
+  labelImage(s.pixels, s.segmentation.mask, s.out.labels);
+  clock.lap(&StageTimes::classify);
+
+  // (2) one marker for each part
+  s.finder.find(s.pixels, s.camera, s.size.actor().radii_m, s.predicted ? &s.predicted_camera : nullptr,
+                s.out.markers_camera);
+  s.markers_world = rotated(s.R_world_camera, s.out.markers_camera);
+  clock.lap(&StageTimes::markers);
+
+  // (3) nearest poses in the database, (4) local linear model over them
+  s.buildPrior();
+  clock.lap(&StageTimes::prior);
+
+  // (5) maximum a posteriori pose
+  s.solve();
+  s.finish();
+  clock.lap(&StageTimes::solve);
+  return s.out;
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,41 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "libtracker/classify/forest.h"
+#include "libtracker/core/camera.h"
+#include "libtracker/core/depth_frame.h"
+#include "libtracker/posedb/pose_database.h"
+#include "libtracker/tracker/actor_model.h"
+#include "libtracker/tracker/tracked_frame.h"
+#include "libtracker/tracker/tracker_config.h"
+
+namespace depthmocap {
+
+// What the tracker has learned beforehand. Constant; may be shared by trackers on several threads.
+struct TrackerModels {
+  Forest forest;
+  PoseDatabase database;
+};
+
+// Tracks one actor through the frames of one camera (Su, Chai, Xia 2016; method section A).
+// Deterministic: the same frames give the same results for any number of threads. Not thread-safe.
+class Tracker {
+ public:
+  // `actor`: a calibrated body; without one tracking starts from an average body and adapts its size by itself.
+  Tracker(std::shared_ptr<const TrackerModels> models, const CameraModel& camera, const TrackerConfig& config,
+          const std::optional<ActorModel>& actor = std::nullopt);
+  ~Tracker();
+
+  // The pose of one frame; times must increase. The result is valid until the next call.
+  const TrackedFrame& process(const DepthFrame& frame);
+
+  // The body in use.
+  [[nodiscard]] const ActorModel& actor() const;
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace depthmocap

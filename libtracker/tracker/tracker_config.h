@@ -1,0 +1,37 @@
+#pragma once
+#include "libtracker/classify/forest.h"
+#include "libtracker/markers/find_markers.h"
+#include "libtracker/posedb/pose_search.h"
+#include "libtracker/prior/local_prior.h"
+#include "libtracker/segment/segment.h"
+#include "libtracker/solve/map_solver.h"
+
+namespace depthmocap {
+
+// When a pose is believed, carried on, given up and looked for again.
+struct TrackPolicy {
+  int min_markers = 5;           // (1 .. 15) fewer seen markers are not enough evidence for a pose
+  double max_rms_m = 0.10;       // [m] a worse fit of the seen markers is not believed
+  double suspect_rms_m = 0.065;  // [m] above it a global search competes with the tracked pose
+  double switch_gain = 0.6;      // (0 .. 1) the global pose wins if its energy is below this share of the tracked one's
+  double coast_s = 0.4;          // [s] a pose is carried on without evidence, then the actor is lost
+  int start_poses = 6;           // (>= 1) database poses a global search solves from
+  double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
+  double adapt_s = 3.0;             // [s] of good frames over which an uncalibrated actor's size is fitted
+  void validate() const;
+};
+
+// Every parameter of the tracker; the defaults work without any file.
+struct TrackerConfig {
+  SegmentConfig segment;
+  ClassifyConfig classify;
+  MarkerConfig markers;
+  PoseSearchConfig search;
+  PriorConfig prior;
+  MapConfig solve;
+  TrackPolicy policy;
+  int threads = 2;  // (>= 1) for the stages that can use them
+  void validate() const;
+};
+
+}  // namespace depthmocap
