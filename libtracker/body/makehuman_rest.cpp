@@ -192,6 +192,10 @@ BodySurface inZeroPose(const std::vector<Eigen::Vector3f>& vertices, const MakeH
 
   Motions motions;
   for (Motion& motion : motions) motion.t = -root;
+  // Our shoulders and hips lie in one plane, the rig's shoulders a little before it: the trunk keeps its place between
+  // the shoulders.
+  const double shoulder_z = 0.5 * (pose.joint(kSides[0].arm) + pose.joint(kSides[1].arm)).z();
+  for (const Bone bone : {Bone::Root, Bone::UpperBack, Bone::Neck}) of(motions, bone).t.z() = -shoulder_z;
   // The head sits upright over the neck: the zero pose has no forward bend of the neck.
   of(motions, Bone::Head).t.z() =
       kHeadForward * (extent.high_y - extent.low_y) - 0.5 * (extent.head_front + extent.head_back);
