@@ -18,6 +18,7 @@ constexpr double kCellPerStature = 0.0072;
 constexpr double kCoarseCellPerStature = 0.018;
 constexpr double kLeanest = -1.2;
 constexpr double kFattest = 4.0;
+constexpr double kWeightTolerance = 0.05;
 
 void validate(const BodyShape& shape) {
   const auto require = [](const char* field, double value, double low, double high) {
@@ -69,6 +70,10 @@ BodySurface makeBuiltinBody(const BodyShape& shape) {
     const double fatness = fatnessFor(shape, lengths, wanted);
     polygonise(makeAnatomy(shape.sex, lengths, shape.stature_m, fatness), kCellPerStature * shape.stature_m, body);
     wanted *= volume / enclosedVolume(body.vertices, body.triangles);
+  }
+  if (std::abs(enclosedVolume(body.vertices, body.triangles) / volume - 1.0) > kWeightTolerance) {
+    throw Error(fmt::format("no body of {} m weighs {} kg", shape.stature_m, shape.weight_kg), "body shape",
+                "a body mass index between 13 and 60 is possible");
   }
   body.skin.reserve(body.vertices.size());
   for (const Eigen::Vector3f& p : body.vertices) body.skin.push_back(skinOfPoint(body.skeleton, p));

@@ -80,6 +80,8 @@ TEST(BuiltinBody, RefusesImpossibleShapes) {
   EXPECT_THROW(makeBuiltinBody({Sex::Male, 0.3, 70}), Error);
   EXPECT_THROW(makeBuiltinBody({Sex::Male, 1.8, 500}), Error);
   EXPECT_THROW(makeBuiltinBody({Sex::Male, std::nan(""), 70}), Error);
+  EXPECT_THROW(makeBuiltinBody({Sex::Female, 2.2, 30}), Error);
+  EXPECT_THROW(makeBuiltinBody({Sex::Male, 1.0, 160}), Error);
 }
 
 TEST(BuiltinBody, WomenHaveNarrowerShouldersAndWiderHips) {
