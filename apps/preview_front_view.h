@@ -9,7 +9,23 @@ namespace depthmocap {
 // nothing is measured. Shows form where plain depth is nearly flat.
 cv::Mat shadeDepth(const DepthImage& depth, const CameraModel& camera);
 
-// The depth image with the actor's parts, markers and skeleton, fitted into `panel` (8-bit BGR).
-void drawFrontView(const PreviewFrame& frame, const CameraModel& camera, const cv::Mat& shading, cv::Mat& panel);
+// The depth image with the actor's parts, markers and skeleton. A small actor is enlarged, at most twice; the view
+// follows with a time constant of one second.
+class FrontView {
+ public:
+  explicit FrontView(const CameraModel& camera) : camera_(camera) {}
+  // Draws over the whole of `panel` (8-bit BGR).
+  void draw(const PreviewFrame& frame, const cv::Mat& shading, cv::Mat& panel);
+
+ private:
+  void follow(const PreviewFrame& frame, const cv::Size& panel);
+  void drawPixels(const PreviewFrame& frame, const cv::Mat& shading, cv::Mat& panel) const;
+
+  CameraModel camera_;
+  bool has_focus_ = false;
+  double last_time_s_ = 0;
+  cv::Point2d focus_;  // [px] of the depth image, in the middle of the panel
+  double scale_ = 1;   // panel pixels a depth pixel
+};
 
 }  // namespace depthmocap

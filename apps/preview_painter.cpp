@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/preview_front_view.h"
 #include "apps/preview_shapes.h"
 #include "libtracker/core/check.h"
 
@@ -67,7 +66,10 @@ void drawLegend(cv::Mat& bar) {
 }  // namespace
 
 PreviewPainter::PreviewPainter(const CameraModel& camera)
-    : camera_(camera), side_view_(camera), canvas_(kPreviewHeight, kPreviewWidth, CV_8UC3, kBarColor) {}
+    : camera_(camera),
+      front_view_(camera),
+      side_view_(camera),
+      canvas_(kPreviewHeight, kPreviewWidth, CV_8UC3, kBarColor) {}
 
 const cv::Mat& PreviewPainter::draw(const PreviewFrame& frame) {
   DMC_CHECK(frame.depth != nullptr && frame.depth->width == camera_.width && frame.depth->height == camera_.height);
@@ -76,10 +78,10 @@ const cv::Mat& PreviewPainter::draw(const PreviewFrame& frame) {
   cv::Mat front = canvas_(cv::Rect(0, 0, kPanelWidth, kPanelHeight));
   cv::Mat side = canvas_(cv::Rect(kPanelWidth, 0, kPanelWidth, kPanelHeight));
   cv::Mat bar = canvas_(cv::Rect(0, kPanelHeight, kPreviewWidth, kBarHeight));
-  drawFrontView(frame, camera_, shading, front);
+  front_view_.draw(frame, shading, front);
   side_view_.draw(frame, shading, side);
   drawText("depth camera", {14, 24}, kTextSize, kTitleColor, front);
-  drawText("from the side", {14, 24}, kTextSize, kTitleColor, side);
+  drawText("from the side, the camera is on the left", {14, 24}, kTextSize, kTitleColor, side);
   cv::line(canvas_, {kPanelWidth, 0}, {kPanelWidth, kPanelHeight}, kLineColor, 1);
   bar.setTo(kBarColor);
   drawCaption(frame, bar);

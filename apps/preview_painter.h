@@ -2,6 +2,7 @@
 #include <opencv2/core.hpp>
 
 #include "apps/preview.h"
+#include "apps/preview_front_view.h"
 #include "apps/preview_side_view.h"
 
 namespace depthmocap {
@@ -16,6 +17,7 @@ class PreviewPainter {
 
  private:
   CameraModel camera_;
+  FrontView front_view_;
   SideView side_view_;
   cv::Mat canvas_;
 };

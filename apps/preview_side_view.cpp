@@ -105,7 +105,6 @@ void SideView::drawFloor(cv::Mat& panel) const {
 }
 
 void SideView::drawPoints(const PreviewFrame& frame, const cv::Mat& shading, cv::Mat& panel) {
-  constexpr int kDot = 2;  // [px] wide
   nearest_.assign(panel.total(), 1e9F);
   for (int y = 0; y < frame.labels->height; ++y) {
     for (int x = 0; x < frame.labels->width; ++x) {
@@ -114,12 +113,16 @@ void SideView::drawPoints(const PreviewFrame& frame, const cv::Mat& shading, cv:
       if (part == 0 || part > kPartCount || !(z > 0)) continue;
       const Projected p = project(camera_.unproject(x, y, static_cast<double>(z)));
       const cv::Scalar color = partColor(part) * (0.35 + 0.65 * static_cast<double>(shading.at<float>(y, x)));
-      const int left = cvRound(p.pixel.x) - kDot / 2;
-      const int top = cvRound(p.pixel.y) - kDot / 2;
-      if (!(p.depth > 0) || left < 0 || top < 0 || left + kDot > panel.cols || top + kDot > panel.rows) continue;
-      for (int k = 0; k < kDot * kDot; ++k) {
-        const int px = left + k % kDot;
-        const int py = top + k / kDot;
+      if (!(p.depth > 0)) continue;
+      const double covered_m = static_cast<double>(z) / camera_.fx;  // by a depth pixel: far points are larger dots
+      const int dot =
+          std::clamp(static_cast<int>(std::ceil(covered_m * focal_px_ / static_cast<double>(p.depth))), 2, 8);
+      const int left = cvRound(p.pixel.x) - dot / 2;
+      const int top = cvRound(p.pixel.y) - dot / 2;
+      if (left < 0 || top < 0 || left + dot > panel.cols || top + dot > panel.rows) continue;
+      for (int k = 0; k < dot * dot; ++k) {
+        const int px = left + k % dot;
+        const int py = top + k / dot;
         float& nearest = nearest_[static_cast<std::size_t>(py * panel.cols + px)];
         if (p.depth > nearest) continue;
         nearest = p.depth;

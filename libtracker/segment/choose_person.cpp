@@ -13,8 +13,9 @@ constexpr double kLargeShare = 0.15;
 constexpr float kPersonBox_m = 2.4F;
 constexpr float kPersonDepth_m = 2.0F;
 
-constexpr float kUsualHeight_m = 1.2F;  // shorter pieces are less likely a standing person
-constexpr float kUsualWidth_m = 1.0F;   // wider ones too, up to outstretched arms
+constexpr float kMinPersonArea_m2 = 0.12F;  // a crouching or half-seen person; table legs are less
+constexpr float kUsualHeight_m = 1.2F;      // shorter pieces are less likely a standing person
+constexpr float kUsualWidth_m = 1.0F;       // wider ones too, up to outstretched arms
 constexpr float kWidest_m = 2.2F;
 constexpr float kPanelThickness_m = 0.012F;   // a door or cupboard front; a body is 4 cm and more
 constexpr float kPanelNoise_per_m = 0.0015F;  // and what depth noise adds, times depth^2
@@ -40,7 +41,7 @@ float shapeScore(const Component& c, const SegmentConfig& config) {
   const auto min_height = static_cast<float>(config.min_height_m);
   if (c.height() > static_cast<float>(config.max_height_m) || c.widthX() > kWidest_m || c.depthZ() > kPersonDepth_m)
     return 0;
-  if (c.height() < min_height && !c.touches_border) return 0;
+  if ((c.height() < min_height && !c.touches_border) || c.area_m2 < kMinPersonArea_m2) return 0;
   const float tall = std::clamp(c.height() / kUsualHeight_m, 0.1F, 1.0F);
   const float slim = std::max(0.2F, fallingFrom(c.widthX(), kUsualWidth_m, kWidest_m));
   const float thick =

@@ -7,6 +7,7 @@
 
 #include <pcl/ModelCoefficients.h>
 #include <pcl/PointIndices.h>
+#include <pcl/console/print.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/segmentation/sac_segmentation.h>
@@ -29,6 +30,14 @@ constexpr float kMinWallWidth_m = 1.0F;
 constexpr int kMaxWallTries = 4;
 constexpr int kNormalReach = 2;  // [cells] between the points that span a cell's local plane
 constexpr float kMaxNormalSpan_m = 0.25F;
+
+constexpr double kFitDistance_m = 0.03;   // of RANSAC's inliers
+constexpr float kWallDistance_m = 0.06F;  // plus noise: what is wall
+
+// How far from a wall a point still belongs to it [m]; walls are met at large angles.
+float wallTolerance(float depth_m) {
+  return kWallDistance_m + 2.0F * kDepthNoise_per_m * depth_m * depth_m;
+}
 
 using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
 
@@ -66,14 +75,16 @@ struct PlaneFinder::Impl {
   void computeNormals(const CoarseCloud& cloud);
   template <typename Accept>
   void collect(const CoarseCloud& cloud, Accept&& accept);
-  bool fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis, double distance_m,
+  bool fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis,
            Eigen::Vector4f& plane);
   std::optional<Eigen::Vector4f> findFloor(const CoarseCloud& cloud, double distance_m);
   void findWalls(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes);
-  bool boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, double distance_m, Wall& wall) const;
+  bool boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, Wall& wall) const;
 };
 
-PlaneFinder::PlaneFinder() : impl_(std::make_unique<Impl>()) {}
+PlaneFinder::PlaneFinder() : impl_(std::make_unique<Impl>()) {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // PCL prints warnings about samples; libraries do not print
+}
 PlaneFinder::~PlaneFinder() = default;
 
 void PlaneFinder::Impl::computeNormals(const CoarseCloud& cloud) {
@@ -95,7 +106,7 @@ void PlaneFinder::Impl::collect(const CoarseCloud& cloud, Accept&& accept) {
 }
 
 bool PlaneFinder::Impl::fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis,
-                            double distance_m, Eigen::Vector4f& plane) {
+                            Eigen::Vector4f& plane) {
   const std::size_t step = (candidates.size() + kMaxPoints - 1) / kMaxPoints;
   points->clear();
   for (std::size_t k = 0; k < candidates.size(); k += step) {
@@ -108,7 +119,7 @@ bool PlaneFinder::Impl::fit(const CoarseCloud& cloud, int model, double max_angl
   segmentation.setMethodType(pcl::SAC_RANSAC);
   segmentation.setOptimizeCoefficients(true);
   segmentation.setMaxIterations(kMaxIterations);
-  segmentation.setDistanceThreshold(distance_m);
+  segmentation.setDistanceThreshold(kFitDistance_m);
   segmentation.setAxis(axis);
   segmentation.setEpsAngle(max_angle_rad);
   segmentation.setInputCloud(points);
@@ -127,12 +138,12 @@ std::optional<Eigen::Vector4f> PlaneFinder::Impl::findFloor(const CoarseCloud& c
   for (int attempt = 0; attempt < kMaxFloorTries; ++attempt) {
     collect(cloud, [&](std::size_t i) {
       const bool below =
-          !floor || distanceTo(*floor, cloud.points[i]) < -3 * planeTolerance(distance_m, cloud.points[i].z());
+          !floor || distanceTo(*floor, cloud.points[i]) < -3 * floorTolerance(distance_m, *floor, cloud.points[i].z());
       return below && normals[i].dot(assumed_up) > kFloorNormal;
     });
     if (static_cast<double>(candidates.size()) < kMinFloorShare * cloud.valid_count) break;
     Eigen::Vector4f plane;
-    if (!fit(cloud, pcl::SACMODEL_PERPENDICULAR_PLANE, kMaxTilt_rad, assumed_up, 0.6 * distance_m, plane)) break;
+    if (!fit(cloud, pcl::SACMODEL_PERPENDICULAR_PLANE, kMaxTilt_rad, assumed_up, plane)) break;
     const bool is_below_camera = plane.head<3>().dot(assumed_up) > 0 && plane[3] > kMinCameraHeight_m;
     if (!is_below_camera || floorShare(cloud, plane, distance_m) < kMinFloorShare) break;
     floor = plane;
@@ -141,16 +152,14 @@ std::optional<Eigen::Vector4f> PlaneFinder::Impl::findFloor(const CoarseCloud& c
 }
 
 // Ends of the wall: the 1st and 99th hundredth of its points, so that a stray inlier does not lengthen it.
-bool PlaneFinder::Impl::boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, double distance_m,
-                                  Wall& wall) const {
+bool PlaneFinder::Impl::boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, Wall& wall) const {
   const Eigen::Vector3f normal = wall.plane.head<3>();
   wall.along = up.cross(normal).normalized();
   std::vector<float> positions;
   float area = 0;
   for (const std::size_t i : candidates) {
     const Eigen::Vector3f& p = cloud.points[i];
-    if (std::abs(distanceTo(wall.plane, p)) > planeTolerance(distance_m, p.z()) || normals[i].dot(normal) < 0.85F)
-      continue;
+    if (std::abs(distanceTo(wall.plane, p)) > wallTolerance(p.z()) || normals[i].dot(normal) < 0.85F) continue;
     positions.push_back(wall.along.dot(p));
     const float slant = std::max(0.2F, std::abs(normal.dot(p.normalized())));
     area += cloud.cellArea(p.z()) / slant;
@@ -169,11 +178,11 @@ void PlaneFinder::Impl::findWalls(const CoarseCloud& cloud, double distance_m, R
   for (int attempt = 0; attempt < kMaxWallTries; ++attempt) {
     collect(cloud, [&](std::size_t i) { return keep[i] != 0 && std::abs(normals[i].dot(up)) < kWallNormal; });
     Wall wall;
-    if (!fit(cloud, pcl::SACMODEL_PARALLEL_PLANE, kMaxWallTilt_rad, up, 0.6 * distance_m, wall.plane)) return;
-    if (boundWall(cloud, up, distance_m, wall)) planes.walls.push_back(wall);
+    if (!fit(cloud, pcl::SACMODEL_PARALLEL_PLANE, kMaxWallTilt_rad, up, wall.plane)) return;
+    if (boundWall(cloud, up, wall)) planes.walls.push_back(wall);
     for (const std::size_t i : candidates) {
       const Eigen::Vector3f& p = cloud.points[i];
-      if (std::abs(distanceTo(wall.plane, p)) <= planeTolerance(distance_m, p.z())) keep[i] = 0;
+      if (std::abs(distanceTo(wall.plane, p)) <= wallTolerance(p.z())) keep[i] = 0;
     }
   }
 }
@@ -190,13 +199,12 @@ void keepOffPlanes(const CoarseCloud& cloud, const RoomPlanes& planes, double di
   keep.resize(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3f& p = cloud.points[i];
-    const float tolerance = planeTolerance(distance_m, p.z());
     bool off = p.z() > 0;
-    if (off && planes.floor) off = distanceTo(*planes.floor, p) > tolerance;
+    if (off && planes.floor) off = distanceTo(*planes.floor, p) > floorTolerance(distance_m, *planes.floor, p.z());
     for (const Wall& wall : planes.walls) {
       if (!off) break;
       const float t = wall.along.dot(p);
-      off = std::abs(distanceTo(wall.plane, p)) > tolerance || t < wall.low || t > wall.high;
+      off = std::abs(distanceTo(wall.plane, p)) > wallTolerance(p.z()) || t < wall.low || t > wall.high;
     }
     keep[i] = off ? 1 : 0;
   }
@@ -206,7 +214,7 @@ double floorShare(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double
   if (cloud.valid_count == 0) return 0;
   int on_floor = 0;
   for (const Eigen::Vector3f& p : cloud.points) {
-    if (p.z() > 0 && std::abs(distanceTo(floor, p)) <= planeTolerance(distance_m, p.z())) ++on_floor;
+    if (p.z() > 0 && std::abs(distanceTo(floor, p)) <= floorTolerance(distance_m, floor, p.z())) ++on_floor;
   }
   return static_cast<double>(on_floor) / cloud.valid_count;
 }

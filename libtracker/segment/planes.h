@@ -36,11 +36,14 @@ class PlaneFinder {
   std::unique_ptr<Impl> impl_;
 };
 
-// How far from a plane a point at this depth still belongs to it [m]: depth noise grows with the square of the
-// distance.
-inline float planeTolerance(double distance_m, float depth_m) {
-  const float beyond = depth_m > 2.0F ? depth_m - 2.0F : 0.0F;
-  return static_cast<float>(distance_m) + 0.005F * beyond * beyond;
+// Depth noise grows with the square of the distance: one standard deviation is about this times depth^2 [1/m].
+inline constexpr float kDepthNoise_per_m = 0.0015F;
+
+// How far above the floor a point at this depth may still be floor [m]. Depth noise moves a point along its ray, which
+// meets the floor at a small angle, so that feet can be told from the floor far away too. `distance_m`: for floors that
+// are not flat.
+inline float floorTolerance(double distance_m, const Eigen::Vector4f& floor, float depth_m) {
+  return static_cast<float>(distance_m) + 3.0F * kDepthNoise_per_m * floor[3] * depth_m;
 }
 
 // 1 for each cell that is neither floor (or below it) nor wall.

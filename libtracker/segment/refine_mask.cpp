@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libtracker/segment/planes.h"
+
 namespace depthmocap {
 
 namespace {
@@ -92,7 +94,7 @@ class BlockRefiner {
   }
   [[nodiscard]] bool onFloor(int x, int y, float z) const {
     const float along = slope_.x() * static_cast<float>(x) + slope_.y() * static_cast<float>(y) + slope_.z();
-    return z * along + floor_offset_ < static_cast<float>(limits_.floor_distance_m);
+    return z * along + floor_offset_ < floorTolerance(limits_.floor_distance_m, *limits_.floor, z);
   }
 
   const DepthImage& depth_;

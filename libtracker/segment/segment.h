@@ -11,7 +11,7 @@ namespace depthmocap {
 struct SegmentConfig {
   double min_depth_m = 0.4;        // [m] (>= 0) nearer measurements are dropped
   double max_depth_m = 6.0;        // [m] (> min_depth_m) farther ones too
-  double floor_distance_m = 0.05;  // [m] (> 0) within this distance of the floor plane is floor
+  double floor_distance_m = 0.02;  // [m] (> 0) this near the floor plane is floor, beside what the sensor's noise needs
   double cluster_gap_m = 0.10;     // [m] (> 0) points farther apart belong to different clusters
   double min_height_m = 0.5;       // [m] (> 0) a person's cluster is at least this tall, unless cut by the image border
   double max_height_m = 2.4;       // [m] (> min_height_m)

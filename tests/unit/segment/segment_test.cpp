@@ -149,6 +149,13 @@ TEST(Segment, EmptyRoomHasNoActor) {
   EXPECT_EQ(segmentOnce(scene).pixel_count, 0);
 }
 
+TEST(Segment, TableLegIsNoActor) {
+  TestScene scene;
+  addRoom(scene);
+  scene.addPanel(kRoom, {-0.5, 0.5, 2.0}, 0.04, 0.5);
+  EXPECT_EQ(segmentOnce(scene).pixel_count, 0);
+}
+
 TEST(Segment, UnmeasuredImageGivesAnEmptyMask) {
   const TestScene scene;
   const Segmentation result = segmentOnce(scene);
