@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "libtracker/motion/source_motion.h"
+
+namespace depthmocap {
+
+// Reads a BVH file in its own unit and with its own axis up. Rotations multiply in the order in which the channels are
+// listed (Zrotation Xrotation Yrotation: R = Rz Rx Ry, degrees); position channels replace the OFFSET. An End Site is
+// its parent's tip. Unknown keywords of the hierarchy are skipped with their line. Error with file:line.
+SourceMotion readBvh(const std::filesystem::path& path);
+
+// Writes BVH row by row into a temporary file beside `path`; finish() completes and renames it, and without it nothing
+// stays. Channels: root Xposition Yposition Zposition Zrotation Yrotation Xrotation, every other bone Zrotation
+// Yrotation Xrotation; the Euler angles [deg] continue those of the row before. Lengths are multiplied by `scale`.
+// Errors name the file.
+class BvhRows {
+ public:
+  BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale);
+  ~BvhRows();
+  BvhRows(const BvhRows&) = delete;
+  BvhRows& operator=(const BvhRows&) = delete;
+
+  void write(const Eigen::Vector3d& root_position, const std::vector<Eigen::Quaterniond>& rotations);
+  void finish();
+
+ private:
+  void header();
+  void bone(std::size_t index, int depth);
+  void check() const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::vector<MotionBone> bones_;
+  double fps_;
+  double scale_;
+  std::ofstream out_;
+  std::vector<std::size_t> order_;  // bones as the hierarchy lists them
+  std::streamoff frames_at_ = 0;    // where the number of frames stands
+  std::int64_t frames_ = 0;
+  std::vector<Eigen::Vector3d> angles_;  // of the row before, z y x [rad], one a bone
+  bool finished_ = false;
+};
+
+// Writes a whole motion; bones are rigid (position channels only at the root).
+void writeBvh(const SourceMotion& motion, const std::filesystem::path& path, double scale = 1.0);
+
+}  // namespace depthmocap

@@ -1,0 +1,60 @@
+#include "libtracker/motion/bvh_writer.h"
+
+#include <array>
+#include <string_view>
+
+#include "libtracker/skeleton/forward_kinematics.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr std::array<std::string_view, kBoneCount> kBvhNames = {
+    "Hips", "Spine", "RightShoulder", "LeftShoulder", "RightArm", "LeftArm", "RightForeArm", "LeftForeArm",
+    "Neck", "Head",  "RightUpLeg",    "LeftUpLeg",    "RightLeg", "LeftLeg", "RightFoot",    "LeftFoot"};
+// End Sites, as shares of the bone before: finger tips, tips of the toes. The head's lies at the crown.
+constexpr double kHandPerLowerArm = 0.7;
+constexpr double kToesPerFoot = 0.4;
+
+}  // namespace
+
+std::vector<MotionBone> bvhBones(const Skeleton& s) {
+  std::vector<MotionBone> bones;
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    MotionBone bone;
+    bone.name = kBvhNames[b];
+    bone.parent = kBoneParents[b];
+    bone.offset = s.offset[b];
+    bones.push_back(bone);
+  }
+  MotionBone& head = bones[static_cast<std::size_t>(Bone::Head)];
+  head.tip = 2.0 * s.head_center;
+  head.has_tip = true;
+  const auto add = [&](std::string_view name, Bone parent, const Eigen::Vector3d& offset, const Eigen::Vector3d& tip) {
+    MotionBone bone;
+    bone.name = name;
+    bone.parent = static_cast<int>(parent);
+    bone.offset = offset;
+    bone.tip = tip;
+    bone.has_tip = true;
+    bones.push_back(bone);
+  };
+  const Eigen::Vector3d toes(0, 0, kToesPerFoot * s.lengths.foot);
+  add("RightHand", Bone::RightRadius, s.right_wrist, kHandPerLowerArm * s.right_wrist);
+  add("LeftHand", Bone::LeftRadius, s.left_wrist, kHandPerLowerArm * s.left_wrist);
+  add("RightToeBase", Bone::RightFoot, s.right_toe, toes);
+  add("LeftToeBase", Bone::LeftFoot, s.left_toe, toes);
+  return bones;
+}
+
+BvhWriter::BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale)
+    : rows_(path, bvhBones(skeleton), fps, scale),
+      rotations_(bvhBones(skeleton).size(), Eigen::Quaterniond::Identity()) {}
+
+void BvhWriter::write(const Pose& q) {
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    rotations_[b] = Eigen::Quaterniond(localRotation(static_cast<Bone>(b), q));
+  }
+  rows_.write(q.head<3>(), rotations_);
+}
+
+}  // namespace depthmocap

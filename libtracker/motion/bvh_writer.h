@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "libtracker/motion/bvh.h"
+#include "libtracker/skeleton/skeleton.h"
+
+namespace depthmocap {
+
+// Writes poses of the 36-DoF body as BVH with the joint names of MotionBuilder and Mixamo (Hips, Spine, LeftArm, ...),
+// one row a frame as they come (see BvhRows). Offsets are the T-pose, y up, facing +z; scale 1 writes metres, 100
+// centimetres. Hands and toes do not move by themselves.
+class BvhWriter {
+ public:
+  BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale = 1.0);
+  void write(const Pose& q);
+  // Completes the file under its name; without it no file is left.
+  void finish() { rows_.finish(); }
+
+ private:
+  BvhRows rows_;
+  std::vector<Eigen::Quaterniond> rotations_;
+};
+
+// The bones that BvhWriter writes: those of the skeleton in the order of Bone, then hands and toes.
+std::vector<MotionBone> bvhBones(const Skeleton& skeleton);
+
+}  // namespace depthmocap

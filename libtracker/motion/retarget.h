@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+#include <string>
+
+#include "libtracker/core/joints.h"
+#include "libtracker/motion/source_motion.h"
+#include "libtracker/skeleton/motion_clip.h"
+
+namespace depthmocap {
+
+// Distance between the source's joints and ours after the fit [m], over all frames.
+struct RetargetResiduals {
+  std::array<double, kJointCount> mean_m{};
+  std::array<double, kJointCount> max_m{};
+  [[nodiscard]] double mean() const;  // [m] over all joints
+};
+
+struct RetargetResult {
+  MotionClip clip;
+  RetargetResiduals residuals;
+};
+
+// Weights of the fit beside the joint positions, which count in metres.
+struct RetargetConfig {
+  double limit_weight_m = 0.10;    // [m] for 1 rad beyond a joint limit (>= 0)
+  double smooth_weight_m = 0.003;  // [m] for a change of 1 rad from the frame before (>= 0)
+};
+
+// Fits the 36 DoF to every frame of a motion on any human skeleton (in the spirit of Gleicher 1998): bone lengths from
+// the rest pose, then per frame least squares on the 18 joints and the axes of kFitAxes by Levenberg-Marquardt, started
+// from the frame before. DoFs are continuous in time, except that a body upside down changes the sign of its tilt
+// (root_rx, root_rz stay within pi). The motion must have frames; `where` names the file in Errors.
+RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, const std::string& where,
+                        const RetargetConfig& config = {});
+
+}  // namespace depthmocap

@@ -1,0 +1,117 @@
+#include "libtracker/motion/text_scanner.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "libtracker/core/error.h"
+
+namespace depthmocap {
+
+TextScanner::TextScanner(const std::filesystem::path& path, std::string_view extra_separators, char comment)
+    : path_(path.string()), separators_(extra_separators), comment_(comment) {
+  std::error_code failure;
+  const auto bytes = std::filesystem::file_size(path, failure);
+  if (failure) throw Error("cannot read the file: " + failure.message(), path_);
+  if (bytes > kMaxBytes) throw Error("the file is too large for a motion file", path_);
+  std::ifstream in(path, std::ios::binary);
+  text_.resize(static_cast<std::size_t>(bytes));
+  if (!in.read(text_.data(), static_cast<std::streamsize>(bytes))) throw Error("cannot read the file", path_);
+}
+
+bool TextScanner::isSeparator(char c) const {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\0' || separators_.find(c) != std::string::npos;
+}
+
+void TextScanner::findNext() {
+  if (has_next_) return;
+  while (position_ < text_.size()) {
+    const char c = text_[position_];
+    if (c == '\n') {
+      ++position_line_;
+      ++position_;
+    } else if (comment_ != 0 && c == comment_) {
+      position_ = std::min(text_.find('\n', position_), text_.size());
+    } else if (isSeparator(c)) {
+      ++position_;
+    } else {
+      break;
+    }
+  }
+  const std::size_t begin = position_;
+  while (position_ < text_.size() && !isSeparator(text_[position_]) &&
+         (comment_ == 0 || text_[position_] != comment_)) {
+    ++position_;
+  }
+  next_ = std::string_view(text_).substr(begin, position_ - begin);
+  next_line_ = position_line_;
+  has_next_ = true;
+}
+
+bool TextScanner::atEnd() {
+  return peek().empty();
+}
+
+std::string_view TextScanner::peek() {
+  findNext();
+  return next_;
+}
+
+std::string_view TextScanner::take(std::string_view expected) {
+  findNext();
+  line_ = next_line_;
+  if (next_.empty()) fail(fmt::format("the file ends where {} should stand", expected), "is the file complete?");
+  has_next_ = false;
+  return next_;
+}
+
+double TextScanner::takeNumber(std::string_view expected) {
+  return number(take(expected), expected);
+}
+
+void TextScanner::takeLine(std::vector<std::string_view>& words) {
+  words.clear();
+  findNext();
+  line_ = next_line_;
+  takeRestOfLine(words);
+}
+
+void TextScanner::takeRestOfLine(std::vector<std::string_view>& words) {
+  words.clear();
+  for (findNext(); !next_.empty() && next_line_ == line_; findNext()) {
+    words.push_back(next_);
+    has_next_ = false;
+  }
+}
+
+double TextScanner::number(std::string_view word, std::string_view expected) const {
+  std::string_view digits = word;
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double value = 0;
+  const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  // A number too small for a double is zero, as in files that print rounding noise.
+  const bool underflow = result.ec == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos;
+  if (underflow && result.ptr == digits.data() + digits.size()) return 0.0;
+  if (result.ec != std::errc{} || result.ptr != digits.data() + digits.size() || !std::isfinite(value)) {
+    fail(fmt::format("'{}' stands where {} should stand", word, expected));
+  }
+  if (std::abs(value) > kMaxMagnitude) fail(fmt::format("the number {} is out of range", word));
+  return value;
+}
+
+void TextScanner::fail(const std::string& what, const std::string& advice) const {
+  throw Error(what, fmt::format("{}:{}", path_, line_), advice);
+}
+
+std::string lowerCase(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+}  // namespace depthmocap
