@@ -11,14 +11,14 @@ namespace depthmocap {
 
 namespace {
 
-constexpr double kVoxelShare = 0.35;      // of the bandwidth: cubes small enough not to move a mode noticeably
-constexpr int kMaxStarts = 4;             // ascents from the densest places of a part
-constexpr std::size_t kMaxProbes = 256;   // cubes at which the density is looked up to find those places
-constexpr float kMinStartShare = 0.2F;    // of the best density; weaker places are not worth an ascent
-constexpr float kPredictionGain = 0.5F;   // a mode at the prediction beats a distant one up to 1.5 times as dense
-constexpr float kPredictionReach = 2.0F;  // [bandwidths] how near counts as "at the prediction"
-constexpr double kFullAreaShare = 0.4;    // of the expected surface: from here on the area does not limit confidence
-constexpr double kRivalPenalty = 0.5;     // confidence lost to a rival mode of equal density
+constexpr double kVoxelShare = 0.35;         // of the bandwidth: cubes small enough not to move a mode noticeably
+constexpr int kMaxStarts = 4;                // ascents from the densest places of a part
+constexpr std::size_t kMaxProbes = 256;      // cubes at which the density is looked up to find those places
+constexpr float kMinStartShare = 0.2F;       // of the best density; weaker places are not worth an ascent
+constexpr float kPredictionGain = 0.5F;      // a mode at the prediction beats a distant one up to 1.5 times as dense
+constexpr float kPredictionReach_m = 0.15F;  // how near counts as "at the prediction"
+constexpr double kFullAreaShare = 0.3;       // of the expected surface: from here on the area does not limit confidence
+constexpr double kRivalPenalty = 0.5;        // confidence lost to a rival mode of equal density
 constexpr double kMinConfidence = 0.01;
 
 void require(bool holds, const char* field, double value, const char* rule) {
@@ -113,7 +113,7 @@ void MarkerFinder::addMode(const PartVotes& votes, const Eigen::Vector3f& start,
   }
   mode.score = mode.density;
   if (expected != nullptr) {
-    const float distance = (mode.position - *expected).norm() / (kPredictionReach * bandwidth_m);
+    const float distance = (mode.position - *expected).norm() / kPredictionReach_m;
     mode.score *= 1.0F + kPredictionGain / (1.0F + distance * distance);
   }
   modes_.push_back(mode);
