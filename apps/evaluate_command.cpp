@@ -43,7 +43,7 @@ Json namedFigures(const Names& names, const Values& values, int first = 0) {
 // The file of a recording's truth folder, or `truth` itself if it is a file.
 fs::path truthFile(const fs::path& truth, const char* name) {
   if (!fs::is_directory(truth)) return truth;
-  const fs::path file = truth / "truth" / name;
+  fs::path file = truth / "truth" / name;
   if (!fs::exists(file)) {
     throw Error(std::string("this recording has no truth/") + name, truth.string(),
                 "name a file in the same format with --truth or --truth-pose");

@@ -10,7 +10,7 @@ namespace depthmocap {
 
 namespace {
 
-constexpr std::size_t kLongestLine = std::size_t{1} << 20U;
+constexpr std::size_t kLongestLine = std::size_t{64} << 10U;
 constexpr std::size_t kShownCharacters = 40;
 
 // A piece of a damaged file, short and printable, for a message of one line.

@@ -10,7 +10,7 @@
 namespace depthmocap {
 
 // Reads a comma-separated file line by line: blank lines and lines that start with '#' are skipped, fields are trimmed,
-// there is no quoting. Memory is bounded by the longest line allowed (1 MiB). Every complaint is an Error that names
+// there is no quoting. Memory is bounded by the longest line allowed (64 KiB). Every complaint is an Error that names
 // file and line.
 class CsvReader {
  public:
