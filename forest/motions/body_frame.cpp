@@ -7,7 +7,7 @@ namespace {
 template <typename Frame, typename Visit>
 void visitChannels(Frame& frame, Visit&& visit) {
   auto& p = frame.pelvis;
-  for (auto* value : {&p.x, &p.z, &p.y, &p.heading, &p.lean, &p.tilt}) visit(*value);
+  for (auto* value : {&p.x, &p.z, &p.y, &p.heading, &p.lean, &p.tilt, &p.held}) visit(*value);
   for (auto* value : {&frame.spine.bend, &frame.spine.twist, &frame.spine.side}) visit(*value);
   for (auto* value : {&frame.head.nod, &frame.head.side, &frame.head.turn}) visit(*value);
   for (auto* arm : {&frame.left_arm, &frame.right_arm}) {

@@ -16,6 +16,7 @@ struct PelvisState {
   double heading = 0;   // [rad] as kRootRy
   double lean = 0;      // [rad] forward, as kRootRx
   double tilt = 0;      // [rad] to the right, as kRootRz
+  double held = 0;      // [0, 1] how far something else than the feet keeps the balance: a chair, a gait
 };
 
 struct SpineState {
@@ -61,7 +62,7 @@ struct BodyFrame {
 using BodyFrames = std::vector<BodyFrame>;  // at kMotionFps
 
 inline constexpr double kMotionFps = 30.0;
-inline constexpr int kTrunkChannels = 12;
+inline constexpr int kTrunkChannels = 13;
 inline constexpr int kArmChannels = 12;
 inline constexpr int kFootChannels = 16;
 inline constexpr int kFrameChannels = kTrunkChannels + kArmChannels + kFootChannels;

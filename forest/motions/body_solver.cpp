@@ -21,6 +21,8 @@ constexpr double kOnGround = 0.04;         // [m] a foot below this lift stands 
 constexpr double kMinKneeFlexion = 0.05;   // [rad]
 constexpr double kEasyKneeFlexion = 0.13;  // [rad] a standing knee is not locked
 constexpr double kMaxKneeFlexion = 2.65;   // [rad]
+constexpr double kSoftReach = 0.94;        // share of the leg's length
+constexpr double kFreeLift = 0.10;         // [m] from here on a foot's place need not be met
 constexpr double kLimitMargin = 0.01;      // [rad]
 constexpr double kKneeFollowsFoot = 0.85;  // share of the foot's turn that comes from the hip
 
@@ -74,7 +76,7 @@ void aimFoot(Bone bone, const Vector3d& toe_rest, const Matrix3d& R_tibia_foot, 
   setLocalRotation(bone, R_tibia_foot, q);
   const int i = kBoneDofs[static_cast<std::size_t>(bone)].first;
   const Vector3d wanted = R_tibia_foot * toe_rest;
-  for (int iteration = 0; iteration < 4; ++iteration) {
+  for (int iteration = 0; iteration < 2; ++iteration) {
     constexpr double kStep = 1e-6;
     const Vector3d now = localRotation(bone, q) * toe_rest;
     Eigen::Matrix<double, 3, 2> J;
@@ -87,6 +89,15 @@ void aimFoot(Bone bone, const Vector3d& toe_rest, const Matrix3d& R_tibia_foot, 
   }
 }
 
+// A foot in the air may miss its target a little: it slows down before the leg is straight instead of stopping there at
+// once.
+double reachedDistance(double wanted, double max_reach, double lift) {
+  const double share = wanted / max_reach;
+  if (share < kSoftReach) return wanted;
+  const double soft = kSoftReach + (1.0 - kSoftReach) * std::tanh((share - kSoftReach) / (1.0 - kSoftReach));
+  return max_reach * lerp(share, soft, smoothStep(lift / kFreeLift));
+}
+
 void solveLeg(const Skeleton& skeleton, const BodyFrame& frame, Side side, Pose& q) {
   const FootState& foot = frame.foot(side);
   const LegBones bones = legBones(side);
@@ -96,7 +107,8 @@ void solveLeg(const Skeleton& skeleton, const BodyFrame& frame, Side side, Pose&
   const double max_reach = legReach(skeleton, kMinKneeFlexion);
   const double pitch = reachablePitch(sole, foot, hip, max_reach);
   const Vector3d line = R_root.transpose() * (anklePosition(sole, foot, pitch) - hip);
-  const double d = std::clamp(line.norm(), legReach(skeleton, kMaxKneeFlexion), max_reach);
+  const double d =
+      std::clamp(reachedDistance(line.norm(), max_reach, foot.lift), legReach(skeleton, kMaxKneeFlexion), max_reach);
 
   const double a = skeleton.lengths.upper_leg;
   const double b = skeleton.lengths.lower_leg;

@@ -39,11 +39,21 @@ constexpr std::array<CurvePoint, 11> kWalkPitch = {{{0.0, -18},
 constexpr std::array<CurvePoint, 9> kRunPitch = {
     {{0.0, -4}, {0.15, 0}, {0.50, 0}, {0.75, 22}, {1.0, 58}, {1.22, 88}, {1.50, 62}, {1.78, 8}, {2.0, -4}}};
 
+// The curve is periodic over [0, 2].
 double curveAt(std::span<const CurvePoint> curve, double phase) {
+  const std::size_t pieces = curve.size() - 1;
+  const auto length = [&](std::size_t k) { return curve[k + 1].phase - curve[k].phase; };
+  const auto slope = [&](std::size_t k) { return (curve[k + 1].pitch_deg - curve[k].pitch_deg) / length(k); };
+  const auto slopeAtKey = [&](std::size_t key) {
+    const std::size_t before = (key + pieces - 1) % pieces;
+    const std::size_t after = key % pieces;
+    return shapePreservingSlope(slope(before), slope(after), length(before), length(after));
+  };
   std::size_t k = 0;
-  while (k + 2 < curve.size() && phase >= curve[k + 1].phase) ++k;
-  const double u = (phase - curve[k].phase) / (curve[k + 1].phase - curve[k].phase);
-  return degrees(lerp(curve[k].pitch_deg, curve[k + 1].pitch_deg, smoothStep(u)));
+  while (k + 1 < pieces && phase >= curve[k + 1].phase) ++k;
+  const HermiteWeights w = hermiteWeights((phase - curve[k].phase) / length(k), length(k));
+  return degrees(w.a * curve[k].pitch_deg + w.b * slopeAtKey(k) + w.c * curve[k + 1].pitch_deg +
+                 w.d * slopeAtKey(k + 1));
 }
 
 Eigen::Vector2d turned(double heading, double left, double forward) {
@@ -143,9 +153,8 @@ void Walker::poseTrunk(double t, double active, BodyFrame& frame) const {
   frame.pelvis.x = body.x + sway.x();
   frame.pelvis.z = body.z + sway.y();
   frame.pelvis.y = -style_.crouch - std::abs(style_.bounce) - style_.bounce * active * wave(2 * (right - middle));
-  if (ground_)
-    frame.pelvis.y +=
-        0.5 * (groundAt(frame.left_foot.x, frame.left_foot.z) + groundAt(frame.right_foot.x, frame.right_foot.z));
+  frame.pelvis.y += 0.5 * (frame.left_foot.ground + frame.right_foot.ground);
+  frame.pelvis.held = 1.0;
   frame.pelvis.heading = body.heading + turn;
   frame.pelvis.lean = style_.lean * (0.4 + 0.6 * active);
   frame.pelvis.tilt = -style_.pelvis_list * active * wave(right - 0.2);

@@ -56,7 +56,7 @@ BodyFrame frameOfKey(const Skeleton& skeleton, const KeyPose& key, const Perform
   return frame;
 }
 
-// Fritsch-Carlson slopes: no overshoot, rest at every turning point.
+// At the ends the spline rests.
 std::vector<FrameChannels> shapePreservingSlopes(const std::vector<double>& time,
                                                  const std::vector<FrameChannels>& value) {
   const std::size_t n = time.size();
@@ -66,11 +66,7 @@ std::vector<FrameChannels> shapePreservingSlopes(const std::vector<double>& time
     const double after = time[k + 1] - time[k];
     const FrameChannels d0 = (value[k] - value[k - 1]) / before;
     const FrameChannels d1 = (value[k + 1] - value[k]) / after;
-    const double w0 = 2 * after + before;
-    const double w1 = after + 2 * before;
-    for (int c = 0; c < kFrameChannels; ++c) {
-      if (d0[c] * d1[c] > 0) slope[k][c] = (w0 + w1) / (w0 / d0[c] + w1 / d1[c]);
-    }
+    for (int c = 0; c < kFrameChannels; ++c) slope[k][c] = shapePreservingSlope(d0[c], d1[c], before, after);
   }
   return slope;
 }
@@ -91,12 +87,8 @@ class FrameSpline {
   }
   [[nodiscard]] FrameChannels at(double t) const {
     const std::size_t k = interval(t);
-    const double h = time_[k + 1] - time_[k];
-    const double u = share(t);
-    const double u2 = u * u;
-    const double u3 = u2 * u;
-    return (2 * u3 - 3 * u2 + 1) * value_[k] + (u3 - 2 * u2 + u) * h * slope_[k] + (3 * u2 - 2 * u3) * value_[k + 1] +
-           (u3 - u2) * h * slope_[k + 1];
+    const HermiteWeights w = hermiteWeights(share(t), time_[k + 1] - time_[k]);
+    return w.a * value_[k] + w.b * slope_[k] + w.c * value_[k + 1] + w.d * slope_[k + 1];
   }
 
  private:
@@ -104,14 +96,45 @@ class FrameSpline {
   std::vector<FrameChannels> value_, slope_;
 };
 
-// Lifts a foot that is on its way from one place to another.
-void addStep(const FootState& from, const FootState& to, double share, FootState& foot) {
-  const double distance = std::hypot(to.x - from.x, to.z - from.z);
+bool isLifted(const FootState& from, const FootState& to) {
+  return std::max(from.lift, to.lift) > kStepDistance;
+}
+
+bool isStep(const FootState& from, const FootState& to) {
+  const bool moves = std::hypot(to.x - from.x, to.z - from.z) > kStepDistance;
+  const bool turns = std::abs(to.heading - from.heading) > kStepTurn;
   const bool rises = std::abs(to.ground - from.ground) > kStepDistance;
-  if (distance < kStepDistance && std::abs(to.heading - from.heading) < kStepTurn && !rises) return;
-  const double lift = std::clamp(kStepLiftShare * distance, kMinStepLift, kMaxStepLift);
-  if (from.lift < lift && to.lift < lift) foot.lift += lift * bump(share);
-  foot.pitch += kStepPitch * bump(std::min(1.0, 1.4 * share));
+  return !isLifted(from, to) && (moves || turns || rises);
+}
+
+// A foot on its way from one standing place to the next; share [0, 1] of the step. A foot that has to carry the body
+// meanwhile turns on the spot.
+void takeStep(const FootState& from, const FootState& to, double share, bool carries, FootState& foot) {
+  const double u = minimumJerk(share);
+  foot.x = lerp(from.x, to.x, u);
+  foot.z = lerp(from.z, to.z, u);
+  foot.ground = lerp(from.ground, to.ground, u);
+  foot.heading = lerp(from.heading, to.heading, u);
+  if (carries) return;
+  const double distance = std::hypot(to.x - from.x, to.z - from.z);
+  foot.lift += std::clamp(kStepLiftShare * distance, kMinStepLift, kMaxStepLift) * bump(share);
+  foot.pitch += kStepPitch * bump(1.4 * share);
+}
+
+void takeSteps(const BodyFrame& from, const BodyFrame& to, double share, bool hops, BodyFrame& frame) {
+  const bool left = isStep(from.left_foot, to.left_foot);
+  const bool right = isStep(from.right_foot, to.right_foot);
+  const bool one_by_one = left && right && !hops;
+  const double first = one_by_one ? 2.0 * share : share;
+  const double second = one_by_one ? 2.0 * share - 1.0 : share;
+  if (left) {
+    takeStep(from.left_foot, to.left_foot, std::min(1.0, first), isLifted(from.right_foot, to.right_foot),
+             frame.left_foot);
+  }
+  if (right) {
+    takeStep(from.right_foot, to.right_foot, std::max(0.0, second), isLifted(from.left_foot, to.left_foot),
+             frame.right_foot);
+  }
 }
 
 }  // namespace
@@ -135,6 +158,14 @@ KeyPose& KeySequence::base(double after_s) {
   return at(end() + after_s);
 }
 
+KeyPose& KeySequence::add(const KeyPose& pose, double after_s) {
+  KeyPose& key = base(after_s);
+  const double time_s = key.time_s;
+  key = pose;
+  key.time_s = time_s;
+  return key;
+}
+
 BodyFrames playKeys(const Skeleton& skeleton, const KeySequence& sequence, const Performance& performance,
                     Random& random) {
   DMC_CHECK(sequence.keys().size() >= 2);
@@ -156,8 +187,7 @@ BodyFrames playKeys(const Skeleton& skeleton, const KeySequence& sequence, const
     const std::size_t k = spline.interval(t);
     const BodyFrame from = frameOf(value[k]);
     const BodyFrame to = frameOf(value[k + 1]);
-    addStep(from.left_foot, to.left_foot, spline.share(t), frame.left_foot);
-    addStep(from.right_foot, to.right_foot, spline.share(t), frame.right_foot);
+    takeSteps(from, to, spline.share(t), performance.hops, frame);
     frames.push_back(frame);
   }
   return frames;

@@ -34,6 +34,7 @@ struct Performance {
   double hand_spread = 0.03;   // [m] random displacement of every hand key
   double angle_spread = 0.04;  // [rad] of every trunk key
   double heel_rise = 0.30;     // [rad] how far heels may come up by themselves
+  bool hops = false;           // both feet may leave the floor at once; otherwise one steps after the other
 };
 
 // Keys in time order, each starting as a copy: of the base posture (at) or of the key before (then).
@@ -45,6 +46,8 @@ class KeySequence {
   // `after_s` later than the last key.
   KeyPose& then(double after_s);
   KeyPose& base(double after_s);
+  // A whole posture, `after_s` after the last key.
+  KeyPose& add(const KeyPose& pose, double after_s);
   [[nodiscard]] double end() const { return keys_.empty() ? 0.0 : keys_.back().time_s; }
   [[nodiscard]] const std::vector<KeyPose>& keys() const { return keys_; }
 

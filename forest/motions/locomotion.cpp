@@ -11,7 +11,7 @@ namespace {
 
 RawMotion onFoot(Studio& studio, const WalkPath& path, double duration_s, const GaitStyle& style,
                  double liveliness = 1.0) {
-  return {walkAlong(path, duration_s, style, studio.random.uniform()), false, liveliness};
+  return {walkAlong(path, duration_s, style, studio.random.uniform()), liveliness};
 }
 
 // A walker's personal way; the speed [m/s] sets cadence, lean and swing (Winter 2009: both step length and cadence
@@ -172,7 +172,7 @@ RawMotion jog(Studio& studio) {
 }
 
 constexpr std::array kRecipes = {
-    Recipe{"walk", 4, &walk},
+    Recipe{"walk", 3, &walk},
     Recipe{"walk_slow", 2, &walkSlow},
     Recipe{"walk_fast", 2, &walkFast},
     Recipe{"walk_circle", 2, &walkCircle},
@@ -182,8 +182,8 @@ constexpr std::array kRecipes = {
     Recipe{"tiptoe", 2, &tiptoe},
     Recipe{"march", 4, &march},
     Recipe{"sneak", 2, &sneak},
-    Recipe{"run", 3, &run},
-    Recipe{"jog", 4, &jog},
+    Recipe{"run", 2, &run},
+    Recipe{"jog", 2, &jog},
 };
 
 }  // namespace

@@ -41,11 +41,11 @@ class Drift {
 
 // Typical unsteadiness of each trunk and arm channel, in the order of channelsOf(): [m] and [rad].
 constexpr std::array<double, kTrunkChannels + kArmChannels> kUnsteadiness = {
-    0.006, 0.006, 0.0,   0.012, 0.008, 0.006,   // pelvis x z y heading lean tilt
-    0.015, 0.018, 0.010,                        // spine
-    0.025, 0.015, 0.040,                        // head
-    0.010, 0.010, 0.025, 0.020, 0.020, 0.030,   // left arm
-    0.010, 0.010, 0.025, 0.020, 0.020, 0.030};  // right arm
+    0.006, 0.006, 0.0,   0.012, 0.008, 0.006, 0.0,  // pelvis x z y heading lean tilt
+    0.015, 0.018, 0.010,                            // spine
+    0.025, 0.015, 0.040,                            // head
+    0.010, 0.010, 0.025, 0.020, 0.020, 0.030,       // left arm
+    0.010, 0.010, 0.025, 0.020, 0.020, 0.030};      // right arm
 
 void addNaturalNoise(BodyFrames& frames, double liveliness, Random& random) {
   std::vector<Drift> drifts;
@@ -91,8 +91,8 @@ void keepBalance(const Skeleton& skeleton, BodyFrames& frames) {
     for (const BodyFrame& frame : frames) {
       const Eigen::Vector3d center = centerOfMass(skeleton, solveBody(skeleton, frame));
       const Eigen::Vector2d support = supportCenter(frame);
-      dx.push_back(kBalanceShare * (support.x() - center.x()));
-      dz.push_back(kBalanceShare * (support.y() - center.z()));
+      dx.push_back(kBalanceShare * (1.0 - frame.pelvis.held) * (support.x() - center.x()));
+      dz.push_back(kBalanceShare * (1.0 - frame.pelvis.held) * (support.y() - center.z()));
     }
     smooth(dx, kBalanceSmoothing / 2);
     smooth(dz, kBalanceSmoothing / 2);
@@ -124,7 +124,7 @@ void limitPelvisHeight(const Skeleton& skeleton, BodyFrames& frames) {
 
 std::vector<Pose> finishMotion(const Skeleton& skeleton, RawMotion motion, Random& random) {
   addNaturalNoise(motion.frames, motion.liveliness, random);
-  if (motion.balanced) keepBalance(skeleton, motion.frames);
+  keepBalance(skeleton, motion.frames);
   limitPelvisHeight(skeleton, motion.frames);
   std::vector<Pose> poses;
   poses.reserve(motion.frames.size());

@@ -11,7 +11,6 @@ namespace depthmocap {
 // What a motion's author hands over.
 struct RawMotion {
   BodyFrames frames;
-  bool balanced = true;     // the centre of mass is kept over the feet (not when sitting, walking or in the air)
   double liveliness = 1.0;  // scales the natural noise
 };
 

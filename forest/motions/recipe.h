@@ -14,12 +14,13 @@ struct Studio {
   Random& random;
   int variant;  // 0, 1, ...
 
+  double uniform(double low, double high) { return random.uniform(low, high); }
   // A value within +-share of the given one.
   double near(double value, double share = 0.15) { return value * random.uniform(1.0 - share, 1.0 + share); }
-  // A performance at a random tempo.
-  Performance performance(double spread = 0.03) { return {random.uniform(0.85, 1.2), spread, 1.3 * spread, 0.30}; }
+  bool chance(double probability) { return random.uniform() < probability; }
+  // The keys at a random tempo, every key a little different.
   BodyFrames play(const KeySequence& sequence, double spread = 0.03) {
-    return playKeys(skeleton, sequence, performance(spread), random);
+    return playKeys(skeleton, sequence, {random.uniform(0.85, 1.15), spread, 1.3 * spread}, random);
   }
 };
 
@@ -37,7 +38,9 @@ std::span<const Recipe> gestureRecipes();
 std::span<const Recipe> drawingRecipes();
 std::span<const Recipe> sportsRecipes();
 std::span<const Recipe> everydayRecipes();
-std::span<const Recipe> bodyRecipes();
+std::span<const Recipe> sittingRecipes();
+std::span<const Recipe> exerciseRecipes();
+std::span<const Recipe> stanceRecipes();
 std::span<const Recipe> danceRecipes();
 
 }  // namespace depthmocap
