@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kSheetPictures = 12;
 constexpr int kSheetColumns = 3;
+constexpr int kSheetGap = 6;  // [px]
+const cv::Scalar kSheetGapColor(90, 82, 76);
 
 // Beside the target, so that the rename stays on one file system; the ending tells OpenCV the container.
 fs::path temporaryBeside(const fs::path& path) {
@@ -140,11 +142,13 @@ cv::Mat ContactSheet::Impl::compose() const {
   const int rows = (static_cast<int>(shown) + kSheetColumns - 1) / kSheetColumns;
   const int columns = std::min(kSheetColumns, static_cast<int>(shown));
   const cv::Size cell = pictures.front().size();
-  cv::Mat sheet(rows * cell.height, columns * cell.width, CV_8UC3, cv::Scalar(0, 0, 0));
+  const cv::Size step(cell.width + kSheetGap, cell.height + kSheetGap);
+  cv::Mat sheet(rows * step.height - kSheetGap, columns * step.width - kSheetGap, CV_8UC3, kSheetGapColor);
   for (std::size_t k = 0; k < shown; ++k) {
     const std::size_t which = shown == 1 ? 0 : k * (pictures.size() - 1) / (shown - 1);
     const int n = static_cast<int>(k);
-    pictures[which].copyTo(sheet(cv::Rect({n % kSheetColumns * cell.width, n / kSheetColumns * cell.height}, cell)));
+    const cv::Point corner(n % kSheetColumns * step.width, n / kSheetColumns * step.height);
+    pictures[which].copyTo(sheet(cv::Rect(corner, cell)));
   }
   return sheet;
 }

@@ -15,7 +15,8 @@ constexpr int kSmoothReach = 2;          // [px] of the smoothing before normals
 constexpr float kSmoothRange_m = 0.04F;  // depths farther apart are not averaged
 constexpr float kMaxStep_m = 0.08F;      // a larger step between neighbours is an edge, not a slope
 const cv::Vec3f kLamp(-0.42F, -0.57F, -0.71F);
-constexpr double kActorShare = 0.85;  // of the panel, when the actor is enlarged
+constexpr double kActorShare = 0.85;      // of the panel, when the actor is enlarged
+constexpr double kMostActorShare = 0.97;  // of the panel, while the view follows
 constexpr double kMaxZoom = 2.0;
 constexpr double kFollowTime_s = 1.0;
 const cv::Scalar kUnmeasured(36, 31, 28);
@@ -92,10 +93,13 @@ std::optional<cv::Rect2d> actorBox(const PreviewFrame& frame) {
   return cv::Rect2d(x0, y0, x1 - x0 + 1, y1 - y0 + 1);
 }
 
-// Middle of the view along one axis: the actor's, but no farther out than the image reaches.
-double clampedFocus(double wanted, double image_size, double visible) {
+// Middle of the view along one axis: the wanted one, but so that the actor [low, high] is inside, and no farther out
+// than the image reaches.
+double clampedFocus(double wanted, double low, double high, double image_size, double visible) {
   if (visible >= image_size) return 0.5 * image_size;
-  return std::clamp(wanted, 0.5 * visible, image_size - 0.5 * visible);
+  const double with_actor =
+      high - low < visible ? std::clamp(wanted, high - 0.5 * visible, low + 0.5 * visible) : wanted;
+  return std::clamp(with_actor, 0.5 * visible, image_size - 0.5 * visible);
 }
 
 }  // namespace
@@ -131,10 +135,11 @@ void FrontView::follow(const PreviewFrame& frame, const cv::Size& panel) {
   const double time_s = frame.joints != nullptr ? frame.joints->time_s : last_time_s_;
   const double share = has_focus_ ? 1.0 - std::exp(-std::max(0.0, time_s - last_time_s_) / kFollowTime_s) : 1.0;
   scale_ += share * (wanted_scale - scale_);
+  scale_ = std::min(scale_, std::max(whole, fitting / kActorShare * kMostActorShare));
   const cv::Point2d wanted(box->x + 0.5 * box->width, box->y + 0.5 * box->height);
   focus_ += share * (wanted - focus_);
-  focus_ = {clampedFocus(focus_.x, camera_.width, panel.width / scale_),
-            clampedFocus(focus_.y, camera_.height, panel.height / scale_)};
+  focus_ = {clampedFocus(focus_.x, box->x, box->x + box->width, camera_.width, panel.width / scale_),
+            clampedFocus(focus_.y, box->y, box->y + box->height, camera_.height, panel.height / scale_)};
   last_time_s_ = time_s;
   has_focus_ = true;
 }
