@@ -8,6 +8,8 @@ class App;
 namespace depthmocap {
 
 void addEvaluateCommand(CLI::App& app);
+void addForestCommand(CLI::App& app);
+void addPosedbCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
 void addSynthesizeCommand(CLI::App& app);
 

@@ -71,8 +71,8 @@ PosePool makePosePool(const DataOptions& data, PoseUse use) {
 
 // Bodies, poses and the images made of them.
 struct ImageSet {
-  std::vector<BodySurface> bodies;
-  PosePool poses;
+  std::shared_ptr<const std::vector<BodySurface>> bodies;
+  std::shared_ptr<const PosePool> poses;
   std::unique_ptr<RenderedImageSource> source;
 };
 
@@ -80,8 +80,9 @@ ImageSet makeImageSet(const DataOptions& data, PoseUse use, std::size_t images) 
   const bool train = use == PoseUse::Train;
   const std::uint64_t seed = data.seed + (train ? 0 : kValidationSeed);
   ImageSet set;
-  set.bodies = makeBodyPool({train ? data.bodies : std::max(1, data.bodies / 5), data.makehuman, seed}, data.threads);
-  set.poses = makePosePool(data, use);
+  const BodyPoolOptions bodies{train ? data.bodies : std::max(1, data.bodies / 5), data.makehuman, seed};
+  set.bodies = std::make_shared<const std::vector<BodySurface>>(makeBodyPool(bodies, data.threads));
+  set.poses = std::make_shared<const PosePool>(makePosePool(data, use));
   RenderedImageOptions options;
   options.count = images;
   options.seed = seed;
@@ -307,6 +308,11 @@ void runEvaluate(const EvaluateCommand& c) {
     source = recorded.get();
   }
   if (!c.pictures.empty()) drawPictures(forest, *source, c.pictures);
+  if (recorded && !recorded->hasLabels()) {
+    if (!c.pictures.empty()) return;
+    throw Error("the recording has no true labels", c.recording,
+                "make one with depthmocap synthesize, or ask for --pictures");
+  }
   Progress bar("measuring", source->count());
   const auto confusion = measureAccuracy({&forest, 1}, *source, 1, c.data.threads, [&](double done) {
     bar.update(static_cast<std::size_t>(done * static_cast<double>(source->count())));
@@ -325,7 +331,8 @@ void addEvaluate(CLI::App& forest) {
   CLI::App* command =
       forest.add_subcommand("evaluate", "Measures a forest on held-out renders or a labelled recording");
   command->add_option("FILE", c->file, "Forest file")->required();
-  command->add_option("--recording", c->recording, "Recording with truth/labels to measure on");
+  command->add_option("--recording", c->recording,
+                      "Recording with truth/labels to measure on; without them only for --pictures");
   command->add_option("--step", c->step, "Take every n-th frame of the recording")->capture_default_str();
   command->add_option("--images", c->images, "Rendered images to measure on")->capture_default_str();
   command->add_option("--pictures", c->pictures, "Folder for pictures: true parts left, found parts right");

@@ -20,6 +20,8 @@ constexpr int kWrongUsage = 2;
 void addCommands(CLI::App& app) {
   addReplayCommand(app);
   addEvaluateCommand(app);
+  addForestCommand(app);
+  addPosedbCommand(app);
   addSynthesizeCommand(app);
 }
 

@@ -27,11 +27,8 @@ inline float probeScaleAt(const ImageCrop& crop, int x, int y) {
 }
 
 // The depths [mm] at all offsets from one pixel, to `probes_mm`.
-inline void readProbesOfPixel(const ImageCrop& crop, int x, int y, const std::vector<ProbeOffset>& offsets,
-                              std::uint16_t* probes_mm) {
-  const float scale = probeScaleAt(crop, x, y);
-  for (std::size_t i = 0; i < offsets.size(); ++i) probes_mm[i] = probeCrop_mm(crop, x, y, scale, offsets[i]);
-}
+void readProbesOfPixel(const ImageCrop& crop, int x, int y, const std::vector<ProbeOffset>& offsets,
+                       std::uint16_t* probes_mm);
 
 // Whether the pixel goes to the right child.
 inline bool goesRight(const ImageCrop& crop, int x, int y, const ForestNode& split) {

@@ -38,7 +38,7 @@ void cropTrainingImage(const TrainingImage& image, ImageCrop& crop) {
   crop.focal_px = image.focal_px;
   const auto width = static_cast<std::size_t>(crop.width);
   const auto pitch = static_cast<std::size_t>(crop.pitch());
-  crop.depth_mm.assign(pitch * static_cast<std::size_t>(crop.height + 2), kBackgroundDepth_mm);
+  crop.depth_mm.assign(pitch * static_cast<std::size_t>(crop.height + 2) + 1, kBackgroundDepth_mm);
   crop.labels.assign(width * static_cast<std::size_t>(crop.height), 0);
   for (std::size_t y = 0; y < static_cast<std::size_t>(crop.height); ++y) {
     const std::size_t from = image.depth.index(x0, y0 + static_cast<int>(y));

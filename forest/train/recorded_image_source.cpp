@@ -20,11 +20,11 @@ std::filesystem::path labelFile(const std::filesystem::path& recording, std::int
 }  // namespace
 
 RecordedImageSource::RecordedImageSource(const std::filesystem::path& recording, std::size_t step)
-    : path_(recording), step_(step), reader_(openRecording(recording)) {
+    : path_(recording),
+      step_(step),
+      has_labels_(std::filesystem::is_directory(recording / "truth" / "labels")),
+      reader_(openRecording(recording)) {
   if (step < 1) throw Error("every 0-th frame cannot be taken", "step", "use 1 or more");
-  if (!std::filesystem::is_directory(path_ / "truth" / "labels")) {
-    throw Error("the recording has no true labels", path_.string(), "make one with depthmocap synthesize");
-  }
 }
 
 std::size_t RecordedImageSource::count() const {
@@ -37,6 +37,11 @@ void RecordedImageSource::render(std::size_t i, TrainingImage& image) {
     const std::lock_guard lock(mutex_);
     reader_->read(i * step_, frame);
     image.focal_px = reader_->info().camera.fx;
+  }
+  if (!has_labels_) {
+    image.labels.reset(frame.depth.width, frame.depth.height, 0);
+    image.depth = std::move(frame.depth);
+    return;
   }
   readPng8(labelFile(path_, frame.frame), frame.depth.width, frame.depth.height, image.labels);
   image.depth = std::move(frame.depth);

@@ -9,12 +9,14 @@
 
 namespace depthmocap {
 
-// The frames of a recording with true labels in truth/labels (a synthesised one). Only labelled pixels are the actor.
+// The frames of a recording. With true labels in truth/labels (a synthesised one) the labelled pixels are the actor;
+// without, every measured pixel is, and no label is known: only for recordings whose background was removed.
 class RecordedImageSource : public TrainingImageSource {
  public:
-  // Every step-th frame from the first (step >= 1). Throws Error where there are no labels.
+  // Every step-th frame from the first (step >= 1).
   RecordedImageSource(const std::filesystem::path& recording, std::size_t step);
 
+  [[nodiscard]] bool hasLabels() const { return has_labels_; }
   [[nodiscard]] std::size_t count() const override;
   [[nodiscard]] std::string description() const override { return "recording " + path_.filename().string(); }
   void render(std::size_t i, TrainingImage& image) override;
@@ -22,6 +24,7 @@ class RecordedImageSource : public TrainingImageSource {
  private:
   std::filesystem::path path_;
   std::size_t step_;
+  bool has_labels_;
   std::mutex mutex_;  // a reader is not for several threads
   std::unique_ptr<RecordingReader> reader_;
 };

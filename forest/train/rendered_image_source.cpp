@@ -1,8 +1,10 @@
 #include "forest/train/rendered_image_source.h"
 
+#include <optional>
+
 #include <fmt/format.h>
 
-#include "libtracker/body/builtin_body.h"
+#include "libtracker/body/makehuman_model.h"
 #include "libtracker/body/sample_body.h"
 #include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
@@ -19,18 +21,20 @@ constexpr double kTPoseFacingRange = 0.5;  // [rad] an actor who is asked for a 
 
 std::vector<BodySurface> makeBodyPool(const BodyPoolOptions& options, int threads) {
   if (options.count < 1) throw Error("at least one body is needed", "bodies");
+  std::optional<MakeHumanModel> makehuman;
+  if (!options.makehuman_folder.empty()) makehuman.emplace(options.makehuman_folder);
   std::vector<BodySurface> bodies(static_cast<std::size_t>(options.count));
   parallelFor(threads, bodies.size(), [&](std::size_t i) {
     Random random(options.seed + i, kBodyStream);
-    bodies[i] = makeBuiltinBody(sampleBodyShape(random));
+    bodies[i] = sampleDressedBody(random, makehuman ? &*makehuman : nullptr);
   });
   return bodies;
 }
 
-RenderedImageSource::RenderedImageSource(const std::vector<BodySurface>& bodies, const PosePool& poses,
-                                         const RenderedImageOptions& options)
-    : bodies_(bodies), poses_(poses), options_(options) {
-  if (!options.t_poses && poses.poses.empty()) {
+RenderedImageSource::RenderedImageSource(std::shared_ptr<const std::vector<BodySurface>> bodies,
+                                         std::shared_ptr<const PosePool> poses, const RenderedImageOptions& options)
+    : bodies_(std::move(bodies)), poses_(std::move(poses)), options_(options) {
+  if (!options.t_poses && poses_->poses.empty()) {
     throw Error("no poses to render", "poses", "name a pose database with --posedb or use --procedural");
   }
   if (options_.t_poses) {
@@ -40,14 +44,14 @@ RenderedImageSource::RenderedImageSource(const std::vector<BodySurface>& bodies,
 }
 
 std::string RenderedImageSource::description() const {
-  return fmt::format("{} images of {} bodies, {}, seed {}", options_.count, bodies_.size(),
-                     options_.t_poses ? "T-poses" : poses_.description, options_.seed);
+  return fmt::format("{} images of {} bodies, {}, seed {}", options_.count, bodies_->size(),
+                     options_.t_poses ? "T-poses" : poses_->description, options_.seed);
 }
 
 void RenderedImageSource::render(std::size_t i, TrainingImage& image) {
   Random random(options_.seed + i, kViewStream);
-  const BodySurface& body = bodies_[random.below(static_cast<std::uint32_t>(bodies_.size()))];
-  const Pose q = options_.t_poses ? drawTPose(random) : drawPose(poses_, options_.variation, random);
+  const BodySurface& body = (*bodies_)[random.below(static_cast<std::uint32_t>(bodies_->size()))];
+  const Pose q = options_.t_poses ? drawTPose(random) : drawPose(*poses_, options_.variation, random);
   TrainingView view;
   auto renderer = takeRenderer();
   renderer->render(body, q, random, view);

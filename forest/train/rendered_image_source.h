@@ -30,8 +30,8 @@ struct RenderedImageOptions {
 // Random views of random bodies in random poses. Image i depends on the options, the bodies, the poses and i alone.
 class RenderedImageSource : public TrainingImageSource {
  public:
-  // `bodies` and `poses` must outlive the source. Throws Error where there is no pose and none is a T-pose.
-  RenderedImageSource(const std::vector<BodySurface>& bodies, const PosePool& poses,
+  // Throws Error where there is no pose and T-poses are not asked for. Several sources may share bodies and poses.
+  RenderedImageSource(std::shared_ptr<const std::vector<BodySurface>> bodies, std::shared_ptr<const PosePool> poses,
                       const RenderedImageOptions& options);
 
   [[nodiscard]] std::size_t count() const override { return options_.count; }
@@ -43,8 +43,8 @@ class RenderedImageSource : public TrainingImageSource {
   std::unique_ptr<TrainingViewRenderer> takeRenderer();
   void giveBack(std::unique_ptr<TrainingViewRenderer> renderer);
 
-  const std::vector<BodySurface>& bodies_;
-  const PosePool& poses_;
+  std::shared_ptr<const std::vector<BodySurface>> bodies_;
+  std::shared_ptr<const PosePool> poses_;
   RenderedImageOptions options_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<TrainingViewRenderer>> idle_;  // one a thread that has been here

@@ -1,10 +1,8 @@
 #include "libtracker/classify/descend.h"
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 #include <cstddef>
+
+#include "libtracker/classify/probe_avx2.h"
 
 namespace depthmocap {
 namespace {
@@ -50,29 +48,15 @@ struct Avx2Lanes {
 
 struct Avx2Frame {
   const float* depth;
-  __m256i pitch, last_column, last_row;
+  Avx2Limits limits;
 };
 
-__attribute__((target("avx2"), always_inline)) inline __m256i wholePixels8(__m256i offset, __m256 scale) {
-  const __m256 shifted = _mm256_add_ps(_mm256_mul_ps(_mm256_cvtepi32_ps(offset), scale), _mm256_set1_ps(4096.5F));
-  return _mm256_sub_epi32(_mm256_cvttps_epi32(shifted), _mm256_set1_epi32(4096));
-}
-
-__attribute__((target("avx2"), always_inline)) inline __m256 probe8(const Avx2Frame& frame, const Avx2Lanes& lanes,
-                                                                    __m256i offset_xy) {
-  const __m256i zero = _mm256_setzero_si256();
-  const __m256i offset_x = _mm256_srai_epi32(_mm256_slli_epi32(offset_xy, 16), 16);
-  const __m256i offset_y = _mm256_srai_epi32(offset_xy, 16);
-  __m256i column = _mm256_add_epi32(lanes.x, wholePixels8(offset_x, lanes.scale));
-  __m256i row = _mm256_add_epi32(lanes.y, wholePixels8(offset_y, lanes.scale));
-  column = _mm256_min_epi32(_mm256_max_epi32(column, zero), frame.last_column);
-  row = _mm256_min_epi32(_mm256_max_epi32(row, zero), frame.last_row);
-  return _mm256_i32gather_ps(frame.depth, _mm256_add_epi32(_mm256_mullo_epi32(row, frame.pitch), column), 4);
+DMC_AVX2_INLINE __m256 probe8(const Avx2Frame& frame, const Avx2Lanes& lanes, __m256i offset_xy) {
+  return _mm256_i32gather_ps(frame.depth, probeIndex8(frame.limits, lanes.x, lanes.y, lanes.scale, offset_xy), 4);
 }
 
 // One step down; the result says which lanes were not in a leaf yet.
-__attribute__((target("avx2"), always_inline)) inline int step8(const int* nodes, const Avx2Frame& frame,
-                                                                Avx2Lanes& lanes) {
+DMC_AVX2_INLINE int step8(const int* nodes, const Avx2Frame& frame, Avx2Lanes& lanes) {
   const __m256i word = _mm256_slli_epi32(lanes.node, 2);
   const __m256i child = _mm256_i32gather_epi32(nodes + 3, word, 4);
   const __m256i inner = _mm256_cmpgt_epi32(child, _mm256_setzero_si256());
@@ -93,8 +77,7 @@ __attribute__((target("avx2"))) void descendAvx2(const ForestTree& tree, const A
                                                  const PixelLanes& pixels, LeafLanes& leaves) {
   static_assert(kLanes == 16);
   const auto* nodes = reinterpret_cast<const int*>(tree.nodes.data());
-  const Avx2Frame frame{actor.depth_m.data(), _mm256_set1_epi32(actor.pitch()), _mm256_set1_epi32(actor.width + 1),
-                        _mm256_set1_epi32(actor.height + 1)};
+  const Avx2Frame frame{actor.depth_m.data(), avx2Limits(actor.width, actor.height)};
   const auto load = [&](std::size_t i) __attribute__((target("avx2"))) {
     return Avx2Lanes{_mm256_load_si256(reinterpret_cast<const __m256i*>(&pixels.x[i])),
                      _mm256_load_si256(reinterpret_cast<const __m256i*>(&pixels.y[i])),

@@ -52,6 +52,28 @@ TEST(ImageCrop, ProbesReadWhatTheClassifierReads) {
   }
 }
 
+TEST(ImageCrop, ProbesOfAPixelTogetherEqualThoseOneByOne) {
+  test::DiscFigures source(1, 8);
+  TrainingImage image;
+  source.render(0, image);
+  ImageCrop crop;
+  cropTrainingImage(image, crop);
+  Random random(2);
+  FeatureOptions options;
+  options.offsets = 61;
+  options.max_offset = 600;
+  const auto offsets = drawOffsets(options, random);
+  std::vector<std::uint16_t> together(offsets.size());
+  for (int y = 1; y <= crop.height; y += 3) {
+    for (int x = 1; x <= crop.width; ++x) {
+      readProbesOfPixel(crop, x, y, offsets, together.data());
+      for (std::size_t i = 0; i < offsets.size(); ++i) {
+        ASSERT_EQ(together[i], probeCrop_mm(crop, x, y, probeScaleAt(crop, x, y), offsets[i]));
+      }
+    }
+  }
+}
+
 TEST(ImageCrop, EmptyImageHasNoSamples) {
   TrainingImage image{DepthImage(20, 10, 0), PartImage(20, 10, 0), 100};
   ImageCrop crop;
