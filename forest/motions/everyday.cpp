@@ -12,8 +12,8 @@ namespace {
 
 // Down to the floor: bent hips, bent knees, or between; `depth` [0, 1] from the hips to the knees.
 void bendDown(KeyPose& key, double depth) {
-  key.pelvis.y = -0.10 - 0.32 * depth;
-  key.pelvis.lean = 0.95 - 0.25 * depth;
+  key.pelvis.y = -0.12 - 0.36 * depth;
+  key.pelvis.lean = 1.15 - 0.25 * depth;
   key.spine.bend = 0.55 - 0.10 * depth;
   key.head.nod = -0.25;
 }

@@ -1,6 +1,7 @@
 #include "forest/motions/procedural_motions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -90,6 +91,59 @@ TEST(ProceduralMotions, MovesAtHumanSpeeds) {
       ASSERT_LT(step.head<3>().norm(), kFastestRoot) << clip.name << " " << t;
     }
   }
+}
+
+// Directions from the shoulder to the wrist in the upper back's frame, in cells of 30 degrees: 12 around the vertical,
+// 6 up.
+int armCell(const Skeleton& skeleton, const Pose& q, Bone humerus, const BonePoint& wrist) {
+  ForwardKinematics fk;
+  fk.update(skeleton, q);
+  Eigen::Vector3d d = fk.R_world_bone(Bone::UpperBack).transpose() * (fk.position(wrist) - fk.origin(humerus));
+  d.normalize();
+  constexpr double kCell = 3.14159265358979 / 6.0;
+  const int around = std::clamp(static_cast<int>((std::atan2(d.x(), d.z()) + 6 * kCell) / kCell), 0, 11);
+  const int up = std::clamp(static_cast<int>((std::asin(std::clamp(d.y(), -1.0, 1.0)) + 3 * kCell) / kCell), 0, 5);
+  return 12 * up + around;
+}
+
+TEST(ProceduralMotions, ArmsCoverTheSphereOfTheShoulder) {
+  std::vector<int> left(72), right(72);
+  for (const MotionClip& clip : clips()) {
+    const Skeleton skeleton = makeSkeleton(clip.lengths);
+    for (std::size_t t = 0; t < clip.poses.size(); t += 3) {
+      ++left[static_cast<std::size_t>(
+          armCell(skeleton, clip.poses[t], Bone::LeftHumerus, {Bone::LeftRadius, skeleton.left_wrist}))];
+      ++right[static_cast<std::size_t>(
+          armCell(skeleton, clip.poses[t], Bone::RightHumerus, {Bone::RightRadius, skeleton.right_wrist}))];
+    }
+  }
+  // No arm reaches behind the body across the other side: about a quarter of the sphere stays empty.
+  for (const auto* cells : {&left, &right}) {
+    EXPECT_GE(std::count_if(cells->begin(), cells->end(), [](int n) { return n >= 5; }), 50);
+  }
+}
+
+TEST(ProceduralMotions, TheBodyBendsTurnsKicksAndCrouches) {
+  Pose lowest = Pose::Constant(1e9);
+  Pose highest = Pose::Constant(-1e9);
+  std::size_t frames = 0;
+  for (const MotionClip& clip : clips()) {
+    frames += clip.poses.size();
+    for (const Pose& q : clip.poses) {
+      lowest = lowest.cwiseMin(q);
+      highest = highest.cwiseMax(q);
+    }
+  }
+  EXPECT_GT(frames, 15000U);
+  const double root_height = standingPelvisHeight(makeSkeleton(BoneLengths{}));
+  EXPECT_LT(lowest[kRootTy], root_height - 0.45);
+  EXPECT_GT(highest[kRootTy], root_height + 0.25);
+  EXPECT_GT(highest[kRootRx], 1.0);
+  EXPECT_GT(highest[kHeadRy], 0.9);
+  EXPECT_GT(highest[kUpperbackRy], 0.6);
+  EXPECT_LT(lowest[kRfemurRx], -1.6);
+  EXPECT_GT(highest[kRtibiaRx], 2.0);
+  EXPECT_LT(lowest[kRfemurRz], -0.7);
 }
 
 // Lowest point of both soles [m].
