@@ -10,8 +10,8 @@ namespace depthmocap {
 struct StagingConfig {
   double yaw = 0;                 // [rad] heading in the first frame: 0 faces the camera, positive turns to its right
   double distance_m = 2.7;        // [m] (> 0) camera to the middle of the path, along the floor
-  double min_distance_m = 1.6;    // [m] (> 0) nearer than this no part of the path is wanted,
-  double max_distance_m = 5.8;    // [m] nor farther than this; a distance_m outside widens the range
+  double min_distance_m = 1.9;    // [m] (> 0) nearer than this no part of the path is wanted,
+  double max_distance_m = 5.6;    // [m] nor farther than this; a distance_m outside widens the range
   double half_view = 0.55;        // (> 0) tangent of half the horizontal field of view
   double camera_height_m = 0.95;  // [m] (> 0) above the floor
 };

@@ -89,12 +89,13 @@ void makeLabelFolder(const fs::path& folder) {
   if (failure) throw Error("cannot be created: " + failure.message(), folder.string());
 }
 
-RecordingInfo infoOf(const SynthesisConfig& config, double fps) {
+RecordingInfo infoOf(const SynthesisConfig& config, double fps, double path_scale) {
   RecordingInfo info;
   info.camera = config.camera;
   info.fps = fps;
   info.camera_name = sensorName(config.sensor);
   info.note = config.note;
+  if (path_scale < 1) info.note += fmt::format(", path shortened to {:.0f} %", 100 * path_scale);
   return info;
 }
 
@@ -104,7 +105,7 @@ void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const 
                          const fs::path& folder, const std::function<void(std::size_t)>& progress) {
   const StagedMotion staged = stageMotion(clip, body, config.staging);
   const TriangleMesh room = sceneFor(config, staged);
-  RecordingWriter recording(folder, infoOf(config, clip.fps));
+  RecordingWriter recording(folder, infoOf(config, clip.fps, staged.path_scale));
   const fs::path labels = folder / "truth" / "labels";
   makeLabelFolder(labels);
   JointsWriter joints(folder / "truth" / "joints.csv");

@@ -1,7 +1,5 @@
 #include "forest/render/synthesize.h"
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 
@@ -12,22 +10,18 @@
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace depthmocap {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Synthesize : public ::testing::Test {
+class Synthesize : public testing::Test {
  protected:
-  Synthesize()
-      : folder_(fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(folder_);
-    config_.camera = sensorCamera(SensorKind::Kinect1, true);
-  }
-  ~Synthesize() override { fs::remove_all(folder_); }
+  Synthesize() { config_.camera = sensorCamera(SensorKind::Kinect1, true); }
 
-  const fs::path folder_;
+  const TemporaryFolder folder_;
   SynthesisConfig config_;
 };
 
@@ -53,8 +47,7 @@ std::map<std::string, std::string> filesUnder(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
-    std::ifstream in(entry.path(), std::ios::binary);
-    files[fs::relative(entry.path(), folder).string()] = std::string(std::istreambuf_iterator<char>(in), {});
+    files[fs::relative(entry.path(), folder).string()] = readBytes(entry.path());
   }
   return files;
 }
@@ -72,13 +65,13 @@ TEST_F(Synthesize, BytesDoNotDependOnThreads) {
 
 TEST_F(Synthesize, RecordingTruthAndLabelsAgree) {
   std::size_t done = 0;
-  synthesizeRecording(bendingArms(5), body(), config_, folder_, [&](std::size_t n) { done = n; });
+  synthesizeRecording(bendingArms(5), body(), config_, folder_ / "rec", [&](std::size_t n) { done = n; });
   EXPECT_EQ(done, 5U);
-  const auto reader = openRecording(folder_);
+  const auto reader = openRecording(folder_ / "rec");
   ASSERT_EQ(reader->frameCount(), 5U);
   EXPECT_EQ(reader->info().camera_name, "kinect1");
-  const std::vector<JointsRow> joints = readJointsFile(folder_ / "truth" / "joints.csv");
-  const std::vector<PoseRow> poses = readPoseFile(folder_ / "truth" / "pose.csv");
+  const std::vector<JointsRow> joints = readJointsFile(folder_ / "rec" / "truth" / "joints.csv");
+  const std::vector<PoseRow> poses = readPoseFile(folder_ / "rec" / "truth" / "pose.csv");
   ASSERT_EQ(joints.size(), 5U);
   ASSERT_EQ(poses.size(), 5U);
   DepthFrame frame;
@@ -86,7 +79,7 @@ TEST_F(Synthesize, RecordingTruthAndLabelsAgree) {
   for (std::size_t i = 0; i < 5; ++i) {
     reader->read(i, frame);
     const CameraModel& camera = reader->info().camera;
-    readPng8(folder_ / "truth" / "labels" / ("00000" + std::to_string(i) + ".png"), camera.width, camera.height,
+    readPng8(folder_ / "rec" / "truth" / "labels" / ("00000" + std::to_string(i) + ".png"), camera.width, camera.height,
              labels);
     for (std::size_t p = 0; p < labels.data.size(); ++p) EXPECT_EQ(labels.data[p] != 0, frame.depth.data[p] > 0.0F);
     EXPECT_DOUBLE_EQ(frame.time_s, joints[i].time_s);
@@ -105,8 +98,8 @@ TEST_F(Synthesize, RecordingTruthAndLabelsAgree) {
 
 TEST_F(Synthesize, JointsOutsideTheImageHaveNoConfidence) {
   config_.staging.distance_m = 0.8;  // too near for head and feet
-  synthesizeRecording(bendingArms(1), body(), config_, folder_);
-  const JointsRow row = readJointsFile(folder_ / "truth" / "joints.csv").front();
+  synthesizeRecording(bendingArms(1), body(), config_, folder_ / "rec");
+  const JointsRow row = readJointsFile(folder_ / "rec" / "truth" / "joints.csv").front();
   EXPECT_EQ(row.confidence[static_cast<int>(Joint::Pelvis)], 1.0);
   EXPECT_EQ(row.confidence[static_cast<int>(Joint::LeftAnkle)], 0.0);
   EXPECT_EQ(row.confidence[static_cast<int>(Joint::LeftWrist)], 0.0);
@@ -123,8 +116,8 @@ TEST_F(Synthesize, NoiseOffGivesTheExactSurface) {
 }
 
 TEST_F(Synthesize, RefusesToOverwrite) {
-  synthesizeRecording(bendingArms(1), body(), config_, folder_);
-  EXPECT_THROW(synthesizeRecording(bendingArms(1), body(), config_, folder_), Error);
+  synthesizeRecording(bendingArms(1), body(), config_, folder_ / "rec");
+  EXPECT_THROW(synthesizeRecording(bendingArms(1), body(), config_, folder_ / "rec"), Error);
 }
 
 }  // namespace
