@@ -126,7 +126,7 @@ CameraModel cameraOf(const SynthesizeOptions& o, SensorKind sensor) {
   return camera;
 }
 
-SynthesisConfig configOf(const SynthesizeOptions& o, const MotionClip& clip) {
+SynthesisConfig configOf(const SynthesizeOptions& o) {
   SynthesisConfig config;
   config.sensor = *sensorNamed(o.camera);
   config.camera = cameraOf(o, config.sensor);
@@ -139,17 +139,21 @@ SynthesisConfig configOf(const SynthesizeOptions& o, const MotionClip& clip) {
   config.staging.camera_height_m = o.camera_height_m;
   config.seed = o.seed;
   config.threads = o.threads;
-  const BodyShape shape = shapeOf(o);
-  config.note = fmt::format(
-      "synthetic: motion {}, {} of {:.2f} m and {:.0f} kg, camera {:.2f} m above the floor, noise {}", clip.name,
-      o.sex == "f" ? "a woman" : "a man", shape.stature_m, shape.weight_kg, o.camera_height_m, o.noise);
   return config;
 }
 
+std::string noteOf(const SynthesizeOptions& o, const MotionClip& clip) {
+  const BodyShape shape = shapeOf(o);
+  return fmt::format("synthetic: motion {}, {} of {:.2f} m and {:.0f} kg, camera {:.2f} m above the floor, noise {}",
+                     clip.name, o.sex == "f" ? "a woman" : "a man", shape.stature_m, shape.weight_kg, o.camera_height_m,
+                     o.noise);
+}
+
 void synthesize(const SynthesizeOptions& o) {
+  SynthesisConfig config = configOf(o);
   MotionClip clip = readMotion(o);
   cutMotion(clip, o.first, o.last);
-  const SynthesisConfig config = configOf(o, clip);
+  config.note = noteOf(o, clip);
   const BodySurface body = makeBody(o);
   {
     Progress progress("rendering", clip.poses.size());
