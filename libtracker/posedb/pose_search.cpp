@@ -79,7 +79,6 @@ void PoseSearchConfig::validate() const {
   require(sigma_m > 0, "sigma_m", sigma_m, "above 0");
   require(candidates >= 1, "candidates", candidates, "at least 1");
   require(features >= 1 && features <= kMaxMarkerFeatures, "features", features, "from 1 to 30");
-  require(index_error >= 0, "index_error", index_error, "at least 0");
 }
 
 struct PoseSearch::Impl {
@@ -150,7 +149,7 @@ void PoseSearch::Impl::propose(const PoseQuery& query) {
   found.clear();
   interpret(query);
   const auto share = (static_cast<std::size_t>(config.candidates) + readings.size() - 1) / readings.size();
-  const flann::SearchParams params(flann::FLANN_CHECKS_UNLIMITED, static_cast<float>(config.index_error));
+  const flann::SearchParams params(flann::FLANN_CHECKS_UNLIMITED);
   for (const MarkerFeatureSpace::Estimate& reading : readings) {
     nearest.reset(share);
     index.findNeighbors(nearest, reading.z.data(), params);

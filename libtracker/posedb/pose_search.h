@@ -15,10 +15,9 @@ struct PoseSearchConfig {
   double beta = 0.25;              // (>= 0) weight of the change of pose
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
   bool upright_alignment = false;  // R(a_n, a~) turns about the vertical only, beyond the paper; else any rotation
-  int candidates = 512;      // [poses] (>= 1) proposed by the FLANN index for the exact distance
-  int features = 12;         // (1 .. 30) principal components of the markers that the index holds
-  double index_error = 0.0;  // (>= 0) FLANN's eps: the index may miss a candidate by this share of its distance
-  void validate() const;     // throws Error naming field, value and rule
+  int candidates = 512;            // [poses] (>= 1) proposed by the FLANN index for the exact distance
+  int features = 16;               // (1 .. 30) principal components of the markers that the index holds
+  void validate() const;           // throws Error naming field, value and rule
 };
 
 // What is searched for.

@@ -17,7 +17,7 @@ struct MapConfig {
   double velocity_share = 1.0;     // (0 .. 1) share of the last velocity that E_smooth expects to go on; 1: the paper
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
   int max_iterations = 20;         // (>= 1) a guard: the mean is about 5
-  double energy_tolerance = 1e-5;  // (> 0) stop where one step changes the energy by less
+  double energy_tolerance = 1e-3;  // (> 0) stop where one step changes the energy by less
   void validate() const;           // throws Error naming field, value and rule
 };
 
