@@ -53,6 +53,7 @@ constexpr std::array<int, 6> kLeftArm = {kLclavicleRy, kLclavicleRz, kLhumerusRx
 }  // namespace
 
 bool HeldOutMotions::contains(std::string_view motion) const {
+  motion = motion.substr(0, motion.find(':'));  // "16_15:mirrored" is 16_15
   if (names_.empty()) return hashOf(motion) % 10 == 0;
   return std::find(names_.begin(), names_.end(), motion) != names_.end();
 }

@@ -15,7 +15,14 @@ namespace {
 
 constexpr std::uint64_t kBodyStream = 0x424F;
 constexpr std::uint64_t kViewStream = 0x5649;
-constexpr double kTPoseFacingRange = 0.5;  // [rad] an actor who is asked for a T-pose looks at the camera
+
+// An actor who is asked for a T-pose looks at the camera and stands in view.
+void askForTPose(TrainingViewConfig& view) {
+  view.facing_share = 1.0;
+  view.facing_range = 0.5;
+  view.min_distance_m = 1.5;
+  view.cut_share = 0.03;
+}
 
 }  // namespace
 
@@ -37,10 +44,7 @@ RenderedImageSource::RenderedImageSource(std::shared_ptr<const std::vector<BodyS
   if (!options.t_poses && poses_->poses.empty()) {
     throw Error("no poses to render", "poses", "name a pose database with --posedb or use --procedural");
   }
-  if (options_.t_poses) {
-    options_.view.facing_share = 1.0;
-    options_.view.facing_range = kTPoseFacingRange;
-  }
+  if (options_.t_poses) askForTPose(options_.view);
 }
 
 std::string RenderedImageSource::description() const {

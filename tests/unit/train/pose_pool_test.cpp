@@ -31,6 +31,15 @@ TEST(PosePool, HoldsOutTheNamedMotions) {
   EXPECT_NE(train.description, validate.description + "x");
 }
 
+TEST(PosePool, AMotionsMirrorImageGoesWithIt) {
+  EXPECT_TRUE(HeldOutMotions({"16_15"}).contains("16_15:mirrored"));
+  EXPECT_FALSE(HeldOutMotions({"16_1"}).contains("16_15:mirrored"));
+  for (int i = 0; i < 100; ++i) {
+    const std::string name = "motion_" + std::to_string(i);
+    EXPECT_EQ(HeldOutMotions().contains(name), HeldOutMotions().contains(name + ":mirrored"));
+  }
+}
+
 TEST(PosePool, WithoutNamesATenthIsHeldOut) {
   const HeldOutMotions held_out;
   int out = 0;
