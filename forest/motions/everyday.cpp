@@ -190,7 +190,8 @@ RawMotion carryWalk(Studio& studio) {
   GaitStyle style;
   const double v = studio.uniform(0.7, 1.1);
   style.cycle_s = 1.2;
-  BodyFrames frames = walkAlong(straightPath(v, 0, studio.uniform(-0.4, 0.4)), 4.0, style, studio.random.uniform());
+  const double turn_rate = studio.uniform(-0.4, 0.4);
+  BodyFrames frames = walkAlong(straightPath(v, 0, turn_rate), 4.0, style, studio.random.uniform());
   KeyPose key;
   switch (studio.variant % 4) {
     case 0:
@@ -215,7 +216,8 @@ RawMotion carryWalk(Studio& studio) {
 }
 
 RawMotion walkAndWave(Studio& studio) {
-  BodyFrames frames = walkAlong(straightPath(studio.uniform(0.8, 1.2)), 4.0, GaitStyle{}, studio.random.uniform());
+  const double v = studio.uniform(0.8, 1.2);
+  BodyFrames frames = walkAlong(straightPath(v), 4.0, GaitStyle{}, studio.random.uniform());
   KeySequence s(standing());
   s.at(0.0);
   const bool both = studio.variant % 2 == 1;

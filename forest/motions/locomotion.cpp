@@ -158,7 +158,7 @@ GaitStyle runStyle(Studio& studio, double speed) {
 }
 
 RawMotion run(Studio& studio) {
-  const double v = studio.random.uniform(2.4, 3.2);
+  const double v = studio.near(2.2 + 0.55 * studio.variant, 0.06);
   return onFoot(studio, straightPath(v), 2.5, runStyle(studio, v));
 }
 
@@ -182,7 +182,7 @@ constexpr std::array kRecipes = {
     Recipe{"tiptoe", 2, &tiptoe},
     Recipe{"march", 4, &march},
     Recipe{"sneak", 2, &sneak},
-    Recipe{"run", 2, &run},
+    Recipe{"run", 4, &run},
     Recipe{"jog", 2, &jog},
 };
 
