@@ -210,6 +210,18 @@ void runTrain(TrainCommand c) {
                            100 * report.confusion.meanAccuracy(), 100 * report.confusion.accuracy());
 }
 
+// The command as given, files by their names alone: the report is read elsewhere.
+std::string commandLine(const CLI::App& command) {
+  std::string line = "depthmocap forest train";
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    line += " " + option->get_name();
+    if (option->get_expected_max() == 0) continue;
+    for (const std::string& value : option->results()) line += " " + fs::path(value).filename().string();
+  }
+  return line;
+}
+
 void addTrain(CLI::App& forest) {
   auto c = std::make_shared<TrainCommand>();
   CLI::App* command = forest.add_subcommand("train", "Trains a forest on rendered people");
@@ -237,7 +249,7 @@ void addTrain(CLI::App& forest) {
   command->add_flag("--resume", c->training.resume, "Go on from the checkpoint");
   addDataOptions(*command, c->data);
   command->callback([c, command] {
-    c->command_line = "depthmocap forest train " + command->config_to_str(false, false);
+    c->command_line = commandLine(*command);
     runTrain(*c);
   });
 }
