@@ -75,6 +75,7 @@ void ComponentFinder::numberComponents() {
 
 void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& up) {
   moments_.assign(components_.size(), Eigen::Matrix3d::Zero());
+  boxes_.assign(components_.size(), {cloud.width, cloud.height, -1, -1});
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x) {
       const std::size_t i = cloud.index(x, y);
@@ -95,13 +96,17 @@ void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& u
       c.bottom_m = std::min(c.bottom_m, height);
       c.top_m = std::max(c.top_m, height);
       c.touches_border |= x == 0 || y == 0 || x == cloud.width - 1 || y == cloud.height - 1;
+      CellBox& box = boxes_[label];
+      box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
       const Eigen::Vector3d pd = p.cast<double>();
       moments_[label].noalias() += pd * pd.transpose();
     }
   }
   for (std::size_t k = 0; k < components_.size(); ++k) {
     Component& c = components_[k];
+    const CellBox& box = boxes_[k];
     c.mean /= static_cast<float>(c.cells);
+    c.fill = static_cast<float>(c.cells) / static_cast<float>((box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1));
     if (c.cells < kMinCellsForThickness) continue;
     const Eigen::Vector3d mean = c.mean.cast<double>();
     const Eigen::Matrix3d covariance = moments_[k] / c.cells - mean * mean.transpose();

@@ -16,6 +16,7 @@ struct Component {
   Eigen::Vector3f high = Eigen::Vector3f::Zero();
   float bottom_m = 0;
   float top_m = 0;
+  float fill = 0;         // (0, 1] share of its upright rectangle in the image
   float thickness_m = 0;  // standard deviation across its best plane
   bool touches_border = false;
 
@@ -48,7 +49,11 @@ class ComponentFinder {
   std::vector<std::int32_t> parent_;
   std::vector<std::int32_t> labels_;
   std::vector<Component> components_;
+  struct CellBox {
+    int x0, y0, x1, y1;  // inclusive
+  };
   std::vector<Eigen::Matrix3d> moments_;
+  std::vector<CellBox> boxes_;
 };
 
 }  // namespace depthmocap

@@ -12,6 +12,8 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/sac_segmentation.h>
 
+#include "libtracker/segment/surface_shape.h"
+
 namespace depthmocap {
 
 namespace {
@@ -28,8 +30,6 @@ constexpr float kMinCameraHeight_m = 0.2F;
 constexpr float kMinWallArea_m2 = 1.2F;
 constexpr float kMinWallWidth_m = 1.0F;
 constexpr int kMaxWallTries = 4;
-constexpr int kNormalReach = 2;  // [cells] between the points that span a cell's local plane
-constexpr float kMaxNormalSpan_m = 0.25F;
 
 constexpr double kFitDistance_m = 0.03;   // of RANSAC's inliers
 constexpr float kWallDistance_m = 0.06F;  // plus noise: what is wall
@@ -45,23 +45,6 @@ float distanceTo(const Eigen::Vector4f& plane, const Eigen::Vector3f& p) {
   return plane.head<3>().dot(p) + plane[3];
 }
 
-// Unit normal towards the camera of the surface around a cell; zero where the surface is broken.
-Eigen::Vector3f cellNormal(const CoarseCloud& cloud, int x, int y) {
-  const Eigen::Vector3f& p = cloud.points[cloud.index(x, y)];
-  const Eigen::Vector3f& left = cloud.points[cloud.index(x - kNormalReach, y)];
-  const Eigen::Vector3f& right = cloud.points[cloud.index(x + kNormalReach, y)];
-  const Eigen::Vector3f& above = cloud.points[cloud.index(x, y - kNormalReach)];
-  const Eigen::Vector3f& below = cloud.points[cloud.index(x, y + kNormalReach)];
-  for (const Eigen::Vector3f* q : {&left, &right, &above, &below}) {
-    if (!(q->z() > 0) || (*q - p).norm() > kMaxNormalSpan_m * std::max(1.0F, p.z() / 3.0F))
-      return Eigen::Vector3f::Zero();
-  }
-  const Eigen::Vector3f normal = (below - above).cross(right - left);
-  const float length = normal.norm();
-  if (!(length > 0)) return Eigen::Vector3f::Zero();
-  return normal.dot(p) > 0 ? Eigen::Vector3f(-normal / length) : Eigen::Vector3f(normal / length);
-}
-
 }  // namespace
 
 struct PlaneFinder::Impl {
@@ -72,7 +55,6 @@ struct PlaneFinder::Impl {
   pcl::PointIndices inliers;
   pcl::ModelCoefficients coefficients;
 
-  void computeNormals(const CoarseCloud& cloud);
   template <typename Accept>
   void collect(const CoarseCloud& cloud, Accept&& accept);
   bool fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis,
@@ -86,16 +68,6 @@ PlaneFinder::PlaneFinder() : impl_(std::make_unique<Impl>()) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // PCL prints warnings about samples; libraries do not print
 }
 PlaneFinder::~PlaneFinder() = default;
-
-void PlaneFinder::Impl::computeNormals(const CoarseCloud& cloud) {
-  normals.assign(cloud.points.size(), Eigen::Vector3f::Zero());
-  for (int y = kNormalReach; y + kNormalReach < cloud.height; ++y) {
-    for (int x = kNormalReach; x + kNormalReach < cloud.width; ++x) {
-      const std::size_t i = cloud.index(x, y);
-      if (cloud.points[i].z() > 0) normals[i] = cellNormal(cloud, x, y);
-    }
-  }
-}
 
 template <typename Accept>
 void PlaneFinder::Impl::collect(const CoarseCloud& cloud, Accept&& accept) {
@@ -189,7 +161,8 @@ void PlaneFinder::Impl::findWalls(const CoarseCloud& cloud, double distance_m, R
 
 void PlaneFinder::find(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes) {
   planes.walls.clear();
-  impl_->computeNormals(cloud);
+  impl_->keep.assign(cloud.points.size(), 1);
+  computeNormals(cloud, impl_->keep, impl_->normals);
   planes.floor = impl_->findFloor(cloud, distance_m);
   impl_->findWalls(cloud, distance_m, planes);
 }

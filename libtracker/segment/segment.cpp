@@ -7,8 +7,10 @@
 #include "libtracker/segment/choose_person.h"
 #include "libtracker/segment/coarse_cloud.h"
 #include "libtracker/segment/components.h"
+#include "libtracker/segment/join_fragments.h"
 #include "libtracker/segment/planes.h"
 #include "libtracker/segment/refine_mask.h"
+#include "libtracker/segment/surface_shape.h"
 
 namespace depthmocap {
 
@@ -40,6 +42,8 @@ struct Segmenter::Impl {
   CoarseCloud cloud;
   std::vector<std::uint8_t> keep;
   std::vector<std::uint8_t> selected;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<float> box_shares;
   ComponentFinder finder;
   FragmentJoiner joiner;
   PlaneFinder plane_finder;
@@ -82,6 +86,8 @@ void Segmenter::Impl::removeRoom() {
   keepOffPlanes(cloud, planes, config.floor_distance_m, keep);
   const Eigen::Vector3f up = planes.floor ? Eigen::Vector3f(planes.floor->head<3>()) : Eigen::Vector3f(0, -1, 0);
   finder.find(cloud, keep, config.cluster_gap_m, up);
+  computeNormals(cloud, keep, normals);
+  measureBoxShares(normals, finder, up, box_shares);
 }
 
 void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& camera, Segmentation& out) const {
@@ -114,7 +120,7 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera,
 
   const double image_scale = static_cast<double>(depth.data.size()) / kReferencePixels;
   const ChoiceContext context{cut_out, s.config.min_pixels * image_scale / (s.cloud.stride * s.cloud.stride),
-                              predicted_centroid_camera};
+                              predicted_centroid_camera, cut_out ? nullptr : &s.box_shares};
   const std::int32_t person = choosePerson(s.finder.components(), s.config, context);
   s.selected.assign(s.finder.components().size(), 0);
   if (person != kNoComponent) s.joiner.join(s.cloud, s.finder, person, cut_out, s.selected);

@@ -70,6 +70,22 @@ TEST(Segment, HandCutOffFromTheBodyBelongsToIt) {
   EXPECT_GT(overlap(result.mask, objects, kActor), 0.999);
 }
 
+TEST(Segment, LegBehindTheOtherBelongsToTheActorInARoom) {
+  TestScene scene;
+  addRoom(scene);
+  const Eigen::Vector3d feet = kFeet;
+  scene.addEllipsoid(kActor, feet + Eigen::Vector3d(0, -1.62, 0), {0.10, 0.13, 0.09});
+  scene.addEllipsoid(kActor, feet + Eigen::Vector3d(0, -1.20, 0), {0.14, 0.45, 0.18});
+  scene.addEllipsoid(kActor, feet + Eigen::Vector3d(0, -0.45, -0.1), {0.09, 0.46, 0.08});
+  scene.addEllipsoid(kActor, feet + Eigen::Vector3d(0.18, -0.42, 0.3), {0.09, 0.36, 0.07});
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.95);
+}
+
 TEST(Segment, NearerOfTwoPeopleIsTheActor) {
   TestScene scene;
   scene.addPerson(kActor, kFeet);

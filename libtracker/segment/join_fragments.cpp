@@ -1,0 +1,159 @@
+#include "libtracker/segment/join_fragments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace depthmocap {
+
+namespace {
+
+constexpr float kLimbGap_m = 0.35F;        // a leg behind a bent trunk, where the background is removed
+constexpr float kHiddenLimbGap_m = 0.45F;  // a leg or hand that comes out from behind the body, in a room
+constexpr float kRoomGap_m = 0.12F;        // a piece cut off by an arm or by noise, in a room
+constexpr float kArmReach_m = 0.75F;       // hand to body across an unmeasured forearm
+constexpr float kHandArea_m2 = 0.08F;      // hand and forearm, from the front
+constexpr float kLimbArea_m2 = 0.30F;      // a leg from the side
+constexpr float kLimbWidth_m = 0.6F;       // a leg in a stride
+constexpr float kLegHeight_m = 1.1F;
+constexpr float kLegTopShare = 0.65F;        // of the body's height: a leg does not reach higher
+constexpr float kMinPieceArea_m2 = 0.0012F;  // smaller pieces are speckles
+constexpr float kOwnPersonHeight_m = 0.8F;
+constexpr float kOwnPersonArea_m2 = 0.3F;  // both legs of a tall adult, from the front
+constexpr std::size_t kSamples = 250;      // points of a component for distances between components
+constexpr int kContactReach = 3;           // [cells] silhouettes this near in the image touch
+constexpr int kContactCells = 3;
+
+// More than a hand and a forearm.
+bool isLarge(const Component& piece) {
+  return piece.area_m2 >= kHandArea_m2;
+}
+
+// A piece that stands beside the actor and is large enough to be somebody else.
+bool isOwnPerson(const Component& piece, const Component& body) {
+  const float overlap = std::min(piece.top_m, body.top_m) - std::max(piece.bottom_m, body.bottom_m);
+  return piece.height() > kOwnPersonHeight_m && piece.area_m2 > kOwnPersonArea_m2 && overlap > 0.5F * piece.height();
+}
+
+// Lower bound of the distance between two components [m].
+float boxGap(const Component& a, const Component& b) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0F).norm();
+}
+
+bool isAboveTheFloor(const Component& piece, const Component& body) {
+  return piece.bottom_m > body.bottom_m + 0.2F * body.height();
+}
+
+// A leg by its size and place, or something of a hand's size that does not stand on the floor.
+bool couldBeHiddenLimb(const Component& piece, const Component& body) {
+  if (!isLarge(piece) && isAboveTheFloor(piece, body)) return true;
+  const bool leg_sized = piece.area_m2 < kLimbArea_m2 && piece.widthX() < kLimbWidth_m && piece.height() < kLegHeight_m;
+  return leg_sized && piece.top_m < body.bottom_m + kLegTopShare * body.height();
+}
+
+}  // namespace
+
+struct FragmentJoiner::Search {
+  const CoarseCloud& cloud;
+  const std::vector<Component>& components;
+  const std::vector<std::int32_t>& labels;
+  const Component& body;
+  bool cut_out;
+  const std::vector<std::uint8_t>& selected;
+
+  // True where the piece's silhouette meets the actor's with the actor in front: the rest of the piece is behind it.
+  [[nodiscard]] bool comesOutFromBehind(std::size_t piece) const;
+  // How far from the rest of the body the piece may lie [m].
+  [[nodiscard]] float reachOf(std::size_t piece) const;
+};
+
+bool FragmentJoiner::Search::comesOutFromBehind(std::size_t piece) const {
+  constexpr std::array<std::array<int, 2>, 4> kDirections{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  int contacts = 0;
+  for (int y = 0; y < cloud.height; ++y) {
+    for (int x = 0; x < cloud.width; ++x) {
+      const std::size_t i = cloud.index(x, y);
+      if (labels[i] != static_cast<std::int32_t>(piece)) continue;
+      for (int step = 1; step <= 4 * kContactReach; ++step) {
+        const auto& direction = kDirections[static_cast<std::size_t>(step % 4)];
+        const int nx = x + direction[0] * ((step + 3) / 4);
+        const int ny = y + direction[1] * ((step + 3) / 4);
+        if (nx < 0 || ny < 0 || nx >= cloud.width || ny >= cloud.height) continue;
+        const std::size_t j = cloud.index(nx, ny);
+        if (labels[j] == kNoComponent || selected[static_cast<std::size_t>(labels[j])] == 0) continue;
+        if (cloud.points[j].z() < cloud.points[i].z() && ++contacts >= kContactCells) return true;
+        break;
+      }
+    }
+  }
+  return false;
+}
+
+float FragmentJoiner::Search::reachOf(std::size_t piece) const {
+  const Component& c = components[piece];
+  if (cut_out) return isLarge(c) ? kLimbGap_m : kArmReach_m;
+  // In a room, what lies low before the body is a thing on the floor, and what stands apart behind it is the room.
+  if (!isLarge(c) && c.mean.z() < body.mean.z() && isAboveTheFloor(c, body)) return kArmReach_m;
+  return couldBeHiddenLimb(c, body) && comesOutFromBehind(piece) ? kHiddenLimbGap_m : kRoomGap_m;
+}
+
+void FragmentJoiner::samplePoints(const CoarseCloud& cloud, const ComponentFinder& found) {
+  const std::vector<Component>& components = found.components();
+  if (samples_.size() < components.size()) samples_.resize(components.size());
+  for (auto& sample : samples_) sample.clear();
+  seen_.assign(components.size(), 0);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (found.labels()[i] == kNoComponent) continue;
+    const auto label = static_cast<std::size_t>(found.labels()[i]);
+    const std::size_t step = 1 + static_cast<std::size_t>(components[label].cells) / kSamples;
+    if (seen_[label]++ % step == 0) samples_[label].push_back(cloud.points[i]);
+  }
+}
+
+float FragmentJoiner::gapBetween(std::size_t a, std::size_t b) const {
+  float best = std::numeric_limits<float>::max();
+  for (const Eigen::Vector3f& p : samples_[a]) {
+    for (const Eigen::Vector3f& q : samples_[b]) best = std::min(best, (p - q).squaredNorm());
+  }
+  return std::sqrt(best);
+}
+
+bool FragmentJoiner::belongs(const Search& search, std::size_t piece) const {
+  const Component& c = search.components[piece];
+  float gap_to_actor = std::numeric_limits<float>::max();
+  float gap_to_others = std::numeric_limits<float>::max();
+  for (std::size_t k = 0; k < search.components.size(); ++k) {
+    const Component& other = search.components[k];
+    if (k == piece || (search.selected[k] == 0 && !isLarge(other))) continue;
+    float& gap = search.selected[k] != 0 ? gap_to_actor : gap_to_others;
+    if (boxGap(c, other) <= std::min(gap, kArmReach_m)) gap = std::min(gap, gapBetween(piece, k));
+  }
+  // Large pieces near each other may both be legs; a small one goes to whom it is nearer.
+  const bool contested = !isLarge(c) && gap_to_others < gap_to_actor;
+  return !contested && gap_to_actor <= kArmReach_m && gap_to_actor <= search.reachOf(piece);
+}
+
+void FragmentJoiner::join(const CoarseCloud& cloud, const ComponentFinder& found, std::int32_t person, bool cut_out,
+                          std::vector<std::uint8_t>& selected) {
+  const std::vector<Component>& components = found.components();
+  const Component& body = components[static_cast<std::size_t>(person)];
+  selected.assign(components.size(), 0);
+  selected[static_cast<std::size_t>(person)] = 1;
+  samplePoints(cloud, found);
+  const Search search{cloud, components, found.labels(), body, cut_out, selected};
+  for (const bool large : {true, false}) {  // first limbs and trunk; what large is left then belongs to others
+    for (bool grown = true; grown;) {       // a joined forearm may bring in the hand
+      grown = false;
+      for (std::size_t k = 0; k < components.size(); ++k) {
+        const Component& c = components[k];
+        const bool possible = selected[k] == 0 && isLarge(c) == large && c.area_m2 >= kMinPieceArea_m2;
+        if (!possible || isOwnPerson(c, body) || !belongs(search, k)) continue;
+        selected[k] = 1;
+        grown = true;
+      }
+    }
+  }
+}
+
+}  // namespace depthmocap
