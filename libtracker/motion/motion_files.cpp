@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -97,11 +98,18 @@ MotionClip loadMotion(const fs::path& path, const LoadOptions& options) {
 
 std::vector<fs::path> findMotionFiles(const fs::path& folder) {
   std::error_code failure;
-  std::vector<fs::path> files;
   if (!fs::is_directory(folder, failure)) throw Error("this is not a folder", folder.string());
-  for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied)) {
-    const std::string extension = extensionOf(entry.path());
-    if (entry.is_regular_file() && (extension == ".amc" || extension == ".bvh")) files.push_back(entry.path());
+  std::vector<fs::path> files;
+  std::set<fs::path> visited = {fs::canonical(folder)};  // links may lead in a circle
+  const auto options = fs::directory_options::skip_permission_denied | fs::directory_options::follow_directory_symlink;
+  for (auto entry = fs::recursive_directory_iterator(folder, options); entry != fs::recursive_directory_iterator();
+       ++entry) {
+    if (entry->is_directory(failure)) {
+      if (!visited.insert(fs::canonical(entry->path())).second) entry.disable_recursion_pending();
+      continue;
+    }
+    const std::string extension = extensionOf(entry->path());
+    if (entry->is_regular_file(failure) && (extension == ".amc" || extension == ".bvh")) files.push_back(entry->path());
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -201,6 +201,8 @@ class Fitter {
       if (first || fresh_cost < kClearlyBetter * cost) q = fresh;
     }
     canonicaliseRoot(q, fit_.previous[kRootRy]);
+    // What shrinks from frame to frame towards zero ends in denormal numbers, with which the machine is slow.
+    q = (q.array().abs() < kNothing).select(0.0, q);
     fit_.previous = q;
     distance = (fit_.joints(q) - fit_.targets.joints).colwise().norm();
     return q;
@@ -209,6 +211,7 @@ class Fitter {
  private:
   static constexpr double kDoubtfulCost = 8e-4;  // [m^2] some joint or axis is off by centimetres
   static constexpr double kClearlyBetter = 0.5;
+  static constexpr double kNothing = 1e-12;
 
   double solve(Pose& q) {
     const auto& summary = solver_.Solve(fit_, &q);

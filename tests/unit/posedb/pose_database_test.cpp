@@ -85,7 +85,7 @@ TEST_F(PoseDatabaseFile, AnEmptyOneIsValid) {
 }
 
 TEST_F(PoseDatabaseFile, EveryTruncationIsAnError) {
-  savePoseDatabase(sample(3), file());
+  savePoseDatabase(sample(1), file());
   const std::string bytes = bytesOf(file());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     EXPECT_NE(errorOf(write(bytes.substr(0, size))), "") << "cut to " << size << " bytes";
@@ -94,7 +94,7 @@ TEST_F(PoseDatabaseFile, EveryTruncationIsAnError) {
 }
 
 TEST_F(PoseDatabaseFile, EveryFlippedByteIsAnError) {
-  savePoseDatabase(sample(3), file());
+  savePoseDatabase(sample(1), file());
   const std::string bytes = bytesOf(file());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::string damaged = bytes;
@@ -104,7 +104,7 @@ TEST_F(PoseDatabaseFile, EveryFlippedByteIsAnError) {
 }
 
 TEST_F(PoseDatabaseFile, HugeCountsDoNotAllocate) {
-  savePoseDatabase(sample(3), file());
+  savePoseDatabase(sample(1), file());
   const std::string bytes = bytesOf(file());
   for (const std::size_t offset : {std::size_t{16}, std::size_t{24}, std::size_t{28}}) {
     std::string damaged = bytes;

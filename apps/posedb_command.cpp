@@ -1,0 +1,221 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "forest/motions/procedural_motions.h"
+#include "libtracker/core/error.h"
+#include "libtracker/core/parallel.h"
+#include "libtracker/motion/motion_files.h"
+#include "libtracker/posedb/pose_database.h"
+#include "libtracker/posedb_build/build_pose_database.h"
+
+namespace depthmocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMegabyte = 1e6;
+
+struct BuildOptions {
+  std::vector<fs::path> motions;
+  bool procedural = false;
+  fs::path out;
+  std::vector<std::string> exclude;
+  std::string mirror = "on";
+  double threshold_m = PoseDatabaseConfig{}.threshold_m;
+  double amc_fps = LoadOptions{}.amc_fps;
+  std::uint64_t seed = 1;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+// What has been read, for the summary.
+struct ReadMotions {
+  std::vector<MotionClip> clips;
+  std::size_t captured = 0;  // of the clips, those from files
+  std::size_t broken = 0;
+  double residual_sum = 0;  // [m] of the captured clips' mean joint residuals, weighted by frames
+  std::size_t captured_frames = 0;
+};
+
+// Takes the excluded names off a list; Error for a name that is not on it.
+template <typename Item, typename NameOf>
+void exclude(std::vector<Item>& items, std::vector<std::string>& pending, NameOf nameOf,
+             const std::vector<std::string>& names) {
+  std::erase_if(items, [&](const Item& item) {
+    const std::string name = nameOf(item);
+    if (std::find(names.begin(), names.end(), name) == names.end()) return false;
+    std::erase(pending, name);
+    return true;
+  });
+}
+
+// Reads and retargets the files on all threads. Returns why broken ones were left out.
+std::vector<std::string> readFiles(const std::vector<fs::path>& files, const BuildOptions& o, ReadMotions& read) {
+  LoadOptions load;
+  load.amc_fps = o.amc_fps;
+  const auto block = static_cast<std::size_t>(4 * o.threads);
+  Progress progress("motions", std::max<std::size_t>(1, files.size()));
+  std::vector<std::string> warnings;
+  for (std::size_t first = 0; first < files.size(); first += block) {
+    const std::size_t count = std::min(block, files.size() - first);
+    std::vector<std::optional<RetargetResult>> results(count);
+    std::vector<std::string> failures(count);
+    parallelFor(o.threads, count, [&](std::size_t i) {
+      try {
+        results[i] = retargetMotionFile(files[first + i], load);
+      } catch (const Error& error) {
+        failures[i] = error.what();
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!results[i]) {
+        warnings.push_back(failures[i]);
+        continue;
+      }
+      const std::size_t frames = results[i]->clip.poses.size();
+      read.residual_sum += results[i]->residuals.mean() * static_cast<double>(frames);
+      read.captured_frames += frames;
+      read.clips.push_back(std::move(results[i]->clip));
+      ++read.captured;
+    }
+    progress.update(first + count);
+  }
+  return warnings;
+}
+
+ReadMotions readMotions(const BuildOptions& o) {
+  std::vector<std::string> pending = o.exclude;
+  std::vector<fs::path> files;
+  for (const fs::path& folder : o.motions) {
+    const auto found = findMotionFiles(folder);
+    if (found.empty()) throw Error("there is no .amc or .bvh file in this folder", folder.string());
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  exclude(
+      files, pending, [](const fs::path& file) { return file.stem().string(); }, o.exclude);
+  std::vector<MotionClip> procedural;
+  if (o.procedural) procedural = proceduralMotions(o.seed);
+  exclude(
+      procedural, pending, [](const MotionClip& clip) { return clip.name; }, o.exclude);
+  if (!pending.empty()) {
+    throw Error("no motion has this name", "--exclude " + pending.front(),
+                "names are those of the files without extension");
+  }
+  ReadMotions read;
+  const std::vector<std::string> warnings = readFiles(files, o, read);
+  for (const std::string& warning : warnings) std::cerr << "depthmocap: warning: left out " << warning << '\n';
+  read.broken = warnings.size();
+  for (MotionClip& clip : procedural) read.clips.push_back(std::move(clip));
+  if (read.clips.empty()) throw Error("none of the motions can be read", "posedb build", "see the warnings above");
+  return read;
+}
+
+std::string originOf(const BuildOptions& o, const ReadMotions& read) {
+  std::string origin =
+      fmt::format("{} captured and {} procedural motions", read.captured, read.clips.size() - read.captured);
+  if (o.procedural) origin += fmt::format(" (seed {})", o.seed);
+  if (!o.exclude.empty()) origin += fmt::format(", without {}", fmt::join(o.exclude, " "));
+  return origin + fmt::format(", threshold {} m, mirror {}", o.threshold_m, o.mirror);
+}
+
+void build(const BuildOptions& o) {
+  if (o.motions.empty() && !o.procedural) {
+    throw CLI::RequiredError("--motions DIR or --procedural");
+  }
+  // Found now, not after minutes of work.
+  const fs::path folder = o.out.has_parent_path() ? o.out.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder)) throw Error("the folder does not exist", o.out.string(), "create it first");
+  const auto start = std::chrono::steady_clock::now();
+  const ReadMotions read = readMotions(o);
+  PoseDatabaseConfig config;
+  config.threshold_m = o.threshold_m;
+  config.mirror = o.mirror == "on";
+  config.threads = o.threads;
+  PoseDatabaseResult result = buildPoseDatabase(read.clips, config);
+  result.database.origin = originOf(o, read);
+  savePoseDatabase(result.database, o.out);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  fmt::print("motions      {} read, {} broken, {} procedural\n", read.captured, read.broken,
+             read.clips.size() - read.captured);
+  if (read.captured_frames > 0) {
+    fmt::print("residual     {:.1f} mm mean over joints and frames\n",
+               1000.0 * read.residual_sum / static_cast<double>(read.captured_frames));
+  }
+  fmt::print("frames       {}{}, {} beyond the joint limits\n", result.counts.frames,
+             config.mirror ? " with mirror images" : "", result.counts.beyond_limits);
+  fmt::print("poses        {} kept\n", result.counts.kept);
+  fmt::print("file         {}, {:.1f} MB\n", o.out.string(), static_cast<double>(fs::file_size(o.out)) / kMegabyte);
+  fmt::print("time         {:.1f} s\n", seconds);
+}
+
+struct InfoOptions {
+  fs::path file;
+  bool sources = false;
+};
+
+void info(const InfoOptions& o) {
+  const PoseDatabase database = loadPoseDatabase(o.file);
+  fmt::print("poses        {}\n", database.size());
+  fmt::print("sources      {}\n", database.sources.size());
+  fmt::print("origin       {}\n", database.origin);
+  fmt::print("file         {}, {:.1f} MB\n", o.file.string(), static_cast<double>(fs::file_size(o.file)) / kMegabyte);
+  if (!o.sources) return;
+  for (const PoseDatabase::Source& source : database.sources) fmt::print("{:>8}  {}\n", source.count, source.name);
+}
+
+void addBuild(CLI::App& posedb) {
+  auto* command = posedb.add_subcommand("build", "Motion capture files (ASF/AMC, BVH) to a pose database");
+  auto o = std::make_shared<BuildOptions>();
+  command->add_option("--motions", o->motions, "Folder of .amc (with their .asf) and .bvh files, searched recursively")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command->add_flag("--procedural", o->procedural, "Add this program's own procedural motions");
+  command->add_option("--out", o->out, "Pose database to write")->required()->type_name("DB");
+  command->add_option("--exclude", o->exclude, "Leave out the motion of this name (16_32); may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command->add_option("--mirror", o->mirror, "Also take every motion's mirror image")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  command->add_option("--threshold", o->threshold_m, "Poses whose joints all lie nearer than this [m] are one")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--amc-fps", o->amc_fps, "Frame rate of the .amc files, which do not hold it [1/s]")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  command->add_option("--seed", o->seed, "Of the procedural motions")->capture_default_str();
+  command->add_option("--threads", o->threads, "Threads; the result does not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->callback([o] { build(*o); });
+}
+
+void addInfo(CLI::App& posedb) {
+  auto* command = posedb.add_subcommand("info", "What a pose database holds");
+  auto o = std::make_shared<InfoOptions>();
+  command->add_option("DB", o->file, "Pose database")->required();
+  command->add_flag("--sources", o->sources, "List the motions and how many poses each gave");
+  command->callback([o] { info(*o); });
+}
+
+}  // namespace
+
+void addPosedbCommand(CLI::App& app) {
+  auto* posedb = app.add_subcommand("posedb", "Build and inspect pose databases");
+  posedb->require_subcommand(1);
+  addBuild(*posedb);
+  addInfo(*posedb);
+}
+
+}  // namespace depthmocap
