@@ -40,8 +40,8 @@ int firstOnGrid(int from, int stride) {
   return (from + stride - 1) / stride * stride;
 }
 
-void collectPixels(const DepthImage& depth, const MaskImage& mask, int stride, ClassifiedPixels& result) {
-  const ActorDepth& actor = result.actor;
+void collectPixels(const DepthImage& depth, const MaskImage& mask, int stride, const ActorDepth& actor,
+                   ClassifiedPixels& result) {
   result.stride = stride;
   result.pixels.clear();
   for (int y = firstOnGrid(actor.top, stride); y < actor.top + actor.height; y += stride) {
@@ -78,19 +78,24 @@ void classifyLanes(const Forest& forest, const ActorDepth& actor, double focal_p
 }  // namespace
 
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
-              const ClassifyConfig& config, ClassifiedPixels& result) {
+              const ClassifyConfig& config, ActorDepth& actor, ClassifiedPixels& result) {
   checkArguments(forest, depth, mask, focal_px, config.stride);
-  cutOutActor(depth, mask, result.actor);
-  collectPixels(depth, mask, config.stride, result);
+  cutOutActor(depth, mask, actor);
+  collectPixels(depth, mask, config.stride, actor, result);
   const Descend descend = chooseDescend(config.simd);
   const std::size_t tasks = (result.pixels.size() + kPixelsPerTask - 1) / kPixelsPerTask;
   parallelFor(config.threads, tasks, [&](std::size_t task) {
     const std::size_t end = std::min(result.pixels.size(), (task + 1) * kPixelsPerTask);
     for (std::size_t i = task * kPixelsPerTask; i < end; i += kLanes) {
-      classifyLanes(forest, result.actor, focal_px, descend, result.pixels.data() + i,
-                    std::min<std::size_t>(kLanes, end - i));
+      classifyLanes(forest, actor, focal_px, descend, result.pixels.data() + i, std::min<std::size_t>(kLanes, end - i));
     }
   });
+}
+
+void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
+              const ClassifyConfig& config, ClassifiedPixels& result) {
+  ActorDepth actor;
+  classify(forest, depth, mask, focal_px, config, actor, result);
 }
 
 void classifyReference(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,

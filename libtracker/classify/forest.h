@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "libtracker/classify/classified_pixels.h"
+#include "libtracker/classify/actor_depth.h"
+#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/image.h"
 
 namespace depthmocap {
@@ -55,8 +56,11 @@ struct ClassifyConfig {
 };
 
 // Classifies the pixels of the actor (mask != 0, with a measurement). `depth` and `mask` have the same size, `focal_px`
-// is the camera's fx (1 .. 1e5). The same result for any number of threads. Reuses the memory of `result`: no
-// allocation once it has seen the largest actor.
+// is the camera's fx (1 .. 1e5). The same result for any number of threads. `actor` is working memory; with `result` it
+// is reused: no allocation once they have seen the largest actor.
+void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
+              const ClassifyConfig& config, ActorDepth& actor, ClassifiedPixels& result);
+// The same for a single image.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifiedPixels& result);
 

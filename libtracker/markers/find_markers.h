@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "libtracker/classify/classified_pixels.h"
+#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/camera.h"
 #include "libtracker/core/marker_set.h"
 #include "libtracker/markers/mean_shift.h"

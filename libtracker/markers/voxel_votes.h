@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/classify/classified_pixels.h"
+#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/camera.h"
 
 namespace depthmocap {

@@ -104,12 +104,13 @@ TEST(Classify, ProbabilitiesSumToOneAndMemoryIsReused) {
   const Forest forest = test::randomForest(3, 500, 11);
   const test::Scene scene = test::standingFigure(320, 240, 1);
   ClassifiedPixels result;
-  classify(forest, scene.depth, scene.mask, 260.0, {}, result);
+  ActorDepth actor;
+  classify(forest, scene.depth, scene.mask, 260.0, {}, actor, result);
   const auto* memory = result.pixels.data();
-  const auto* cut_out = result.actor.depth_m.data();
-  classify(forest, scene.depth, scene.mask, 260.0, {}, result);
+  const auto* cut_out = actor.depth_m.data();
+  classify(forest, scene.depth, scene.mask, 260.0, {}, actor, result);
   EXPECT_EQ(result.pixels.data(), memory);
-  EXPECT_EQ(result.actor.depth_m.data(), cut_out);
+  EXPECT_EQ(actor.depth_m.data(), cut_out);
   for (const auto& pixel : result.pixels) {
     EXPECT_NEAR(std::accumulate(pixel.probability.begin(), pixel.probability.end(), 0.0), 1.0, 1e-5);
   }

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/classify/actor_depth.h"
 #include "libtracker/core/parts.h"
 
 namespace depthmocap {
@@ -18,7 +17,6 @@ struct ClassifiedPixels {
   };
   int stride = 1;  // [px] every stride-th pixel in x and y was classified
   std::vector<Pixel> pixels;
-  ActorDepth actor;  // working memory of classify(): what the features were measured on
 };
 
 }  // namespace depthmocap
