@@ -11,36 +11,46 @@ constexpr double kLargeShare = 0.15;
 constexpr float kPersonBox_m = 2.4F;
 constexpr float kPersonDepth_m = 2.0F;
 
+// What a person looks like among furniture. Each measure is a share from 1 (as a person) down to kThingShare.
+constexpr float kThingShare = 0.05F;
 constexpr float kMinPersonArea_m2 = 0.12F;  // a crouching or half-seen person; table legs are less
-constexpr float kUsualHeight_m = 1.2F;      // shorter pieces are less likely a standing person
-constexpr float kUsualWidth_m = 1.0F;       // wider ones too, up to outstretched arms
-constexpr float kWidest_m = 2.2F;
-constexpr float kPanelThickness_m = 0.012F;   // a door or cupboard front; a body is 4 cm and more
-constexpr float kPanelNoise_per_m = 0.0015F;  // and what depth noise adds, times depth^2
-constexpr float kThingPenalty = 0.05F;
-constexpr float kRoundShare = 0.70F;  // of a surface in two directions: bodies have less,
-constexpr float kBoxShare = 0.85F;    // cupboards more
+constexpr float kWidest_m = 2.2F;           // outstretched arms
+constexpr float kUsualHeight_m = 1.3F;      // shorter pieces are less likely a standing person
+constexpr float kHeadWidth_m = 0.28F;       // mean width of the uppermost 20 cm: a head, two raised hands
+constexpr float kBoxTopWidth_m = 0.45F;     // the top of furniture
+constexpr float kBodyWidth_m = 0.60F;       // area / height
+constexpr float kSofaWidth_m = 1.10F;
+constexpr float kLargestArea_m2 = 0.95F;  // of one person from the front; two people or a cupboard have more
+constexpr float kTooLargeArea_m2 = 1.4F;
+constexpr float kRoundShare = 0.75F;  // of a surface in two directions: bodies have less,
+constexpr float kBoxShare = 1.0F;     // cupboards more
 constexpr float kLimbedFill = 0.75F;  // of the upright rectangle around it: limbs and head leave more of it empty,
 constexpr float kBoxFill = 0.90F;     // cupboards less
+constexpr float kPanelThickness_m = 0.012F;   // a door or cupboard front; a body is 4 cm and more
+constexpr float kPanelNoise_per_m = 0.0015F;  // and what depth noise adds, times depth^2
+constexpr float kCutBySideShare = 0.5F;       // who is half out of the view is less likely the actor
 constexpr float kPredictionReach_m = 0.5F;
 constexpr float kFarFromPrediction = 0.02F;  // an actor elsewhere is still found when nobody is where one was expected
 
-float fallingFrom(float value, float full_at, float zero_at) {
-  return std::clamp((zero_at - value) / (zero_at - full_at), 0.0F, 1.0F);
+// 1 up to `full_at`, falling to kThingShare at `thing_at`.
+float likeness(float value, float full_at, float thing_at) {
+  return std::max(kThingShare, std::clamp((thing_at - value) / (thing_at - full_at), 0.0F, 1.0F));
 }
 
 float shapeScore(const Component& c, float box_share, const SegmentConfig& config) {
-  const auto min_height = static_cast<float>(config.min_height_m);
-  if (c.height() > static_cast<float>(config.max_height_m) || c.widthX() > kWidest_m || c.depthZ() > kPersonDepth_m)
-    return 0;
-  if ((c.height() < min_height && !c.touches_border) || c.area_m2 < kMinPersonArea_m2) return 0;
-  const float tall = std::clamp(c.height() / kUsualHeight_m, 0.1F, 1.0F);
-  const float slim = std::max(0.2F, fallingFrom(c.widthX(), kUsualWidth_m, kWidest_m));
-  const float thick =
-      c.thickness_m < kPanelThickness_m + kPanelNoise_per_m * c.mean.z() * c.mean.z() ? kThingPenalty : 1.0F;
-  const float round = std::max(kThingPenalty, fallingFrom(box_share, kRoundShare, kBoxShare));
-  const float outline = std::max(kThingPenalty, fallingFrom(c.fill, kLimbedFill, kBoxFill));
-  return tall * slim * thick * round * outline;
+  const bool too_small = c.height() < static_cast<float>(config.min_height_m) && !c.touches_border;
+  const bool too_large =
+      c.height() > static_cast<float>(config.max_height_m) || c.widthX() > kWidest_m || c.depthZ() > kPersonDepth_m;
+  if (too_small || too_large || c.area_m2 < kMinPersonArea_m2) return 0;
+  const float panel = kPanelThickness_m + kPanelNoise_per_m * c.mean.z() * c.mean.z();
+  float score = std::clamp(c.height() / kUsualHeight_m, 0.1F, 1.0F);
+  score *= c.touches_top ? 1.0F : likeness(c.top_width_m, kHeadWidth_m, kBoxTopWidth_m);
+  score *= likeness(c.area_m2 / c.height(), kBodyWidth_m, kSofaWidth_m);
+  score *= likeness(c.area_m2, kLargestArea_m2, kTooLargeArea_m2);
+  score *= likeness(box_share, kRoundShare, kBoxShare);
+  score *= likeness(c.fill, kLimbedFill, kBoxFill);
+  score *= c.thickness_m < panel ? kThingShare : 1.0F;
+  return c.touches_side ? kCutBySideShare * score : score;
 }
 
 }  // namespace

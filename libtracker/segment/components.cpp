@@ -10,6 +10,7 @@ namespace depthmocap {
 namespace {
 
 constexpr float kGapGrowsFrom_m = 3.0F;
+constexpr float kTopSlice_m = 0.2F;
 constexpr int kMinCellsForThickness = 30;  // smaller pieces are never mistaken for a panel
 
 struct Step {
@@ -95,7 +96,9 @@ void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& u
       c.high = c.high.cwiseMax(p);
       c.bottom_m = std::min(c.bottom_m, height);
       c.top_m = std::max(c.top_m, height);
-      c.touches_border |= x == 0 || y == 0 || x == cloud.width - 1 || y == cloud.height - 1;
+      c.touches_side |= x == 0 || x == cloud.width - 1;
+      c.touches_top |= y == 0;
+      c.touches_border |= c.touches_side || c.touches_top || y == cloud.height - 1;
       CellBox& box = boxes_[label];
       box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
       const Eigen::Vector3d pd = p.cast<double>();
@@ -116,11 +119,21 @@ void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& u
   }
 }
 
+void ComponentFinder::measureTops(const CoarseCloud& cloud, const Eigen::Vector3f& up) {
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    if (labels_[i] == kNoComponent) continue;
+    Component& c = components_[static_cast<std::size_t>(labels_[i])];
+    const Eigen::Vector3f& p = cloud.points[i];
+    if (up.dot(p) > c.top_m - kTopSlice_m) c.top_width_m += cloud.cellArea(p.z()) / kTopSlice_m;
+  }
+}
+
 void ComponentFinder::find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m,
                            const Eigen::Vector3f& up) {
   connectCells(cloud, keep, static_cast<float>(gap_m));
   numberComponents();
   measure(cloud, up);
+  measureTops(cloud, up);
 }
 
 }  // namespace depthmocap

@@ -17,8 +17,11 @@ struct Component {
   float bottom_m = 0;
   float top_m = 0;
   float fill = 0;         // (0, 1] share of its upright rectangle in the image
+  float top_width_m = 0;  // mean width of its uppermost 20 cm: a head's, of a standing person
   float thickness_m = 0;  // standard deviation across its best plane
   bool touches_border = false;
+  bool touches_side = false;  // the left or the right border
+  bool touches_top = false;
 
   [[nodiscard]] float height() const { return top_m - bottom_m; }
   [[nodiscard]] float widthX() const { return high.x() - low.x(); }
@@ -45,6 +48,7 @@ class ComponentFinder {
   void connectCells(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, float gap_m);
   void numberComponents();
   void measure(const CoarseCloud& cloud, const Eigen::Vector3f& up);
+  void measureTops(const CoarseCloud& cloud, const Eigen::Vector3f& up);
 
   std::vector<std::int32_t> parent_;
   std::vector<std::int32_t> labels_;
