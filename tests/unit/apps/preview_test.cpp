@@ -1,0 +1,145 @@
+#include "apps/preview.h"
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "libtracker/core/error.h"
+
+namespace depthmocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Preview : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("preview_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    camera_.width = 160;
+    camera_.height = 120;
+    camera_.fx = camera_.fy = 130;
+    camera_.cx = 79.5;
+    camera_.cy = 59.5;
+    depth_ = DepthImage(160, 120, 0.0F);
+    labels_ = PartImage(160, 120, 0);
+    for (int y = 30; y < 110; ++y) {
+      for (int x = 70; x < 90; ++x) {
+        depth_.at(x, y) = 2.5F;
+        labels_.at(x, y) = static_cast<std::uint8_t>(1 + y % kPartCount);
+      }
+    }
+    row_.state = TrackState::Tracking;
+    row_.p_camera.row(2).setConstant(2.5);
+    row_.confidence.setOnes();
+    row_.confidence[3] = 0;
+    markers_.position.row(2).setConstant(2.5);
+    markers_.confidence[0] = 1;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  PreviewFrame frame(int number) {
+    row_.frame = number;
+    row_.time_s = number / 30.0;
+    return {&depth_, &labels_, &markers_, &row_};
+  }
+  std::vector<std::uint8_t> bytesOf(const fs::path& path) const {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  // Size of a PNG from its header.
+  std::pair<std::uint32_t, std::uint32_t> pngSize(const fs::path& path) const {
+    const std::vector<std::uint8_t> bytes = bytesOf(path);
+    if (bytes.size() < 24 || bytes[1] != 'P' || bytes[2] != 'N' || bytes[3] != 'G') return {0, 0};
+    const auto read = [&](std::size_t at) {
+      return std::uint32_t{bytes[at]} << 24U | std::uint32_t{bytes[at + 1]} << 16U |
+             std::uint32_t{bytes[at + 2]} << 8U | std::uint32_t{bytes[at + 3]};
+    };
+    return {read(16), read(20)};
+  }
+  std::size_t fileCount() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}));
+  }
+
+  fs::path folder_;
+  CameraModel camera_;
+  DepthImage depth_;
+  PartImage labels_;
+  MarkerSet markers_;
+  JointsRow row_;
+};
+
+TEST_F(Preview, FilmAppearsWhenFinishedAndNothingElseIsLeft) {
+  const fs::path path = folder_ / "film.mp4";
+  PreviewWriter writer(path, camera_, 30.0);
+  for (int k = 0; k < 5; ++k) writer.write(frame(k));
+  EXPECT_FALSE(fs::exists(path));
+  writer.finish();
+  ASSERT_TRUE(fs::exists(path));
+  EXPECT_EQ(fileCount(), 1U);
+  const std::vector<std::uint8_t> bytes = bytesOf(path);
+  ASSERT_GT(bytes.size(), 1000U);
+  EXPECT_EQ(std::string(bytes.begin() + 4, bytes.begin() + 8), "ftyp");
+}
+
+TEST_F(Preview, FilmCutShortIsKept) {
+  const fs::path path = folder_ / "film.mp4";
+  {
+    PreviewWriter writer(path, camera_, 15.0);
+    writer.write(frame(0));
+  }
+  EXPECT_TRUE(fs::exists(path));
+}
+
+TEST_F(Preview, FilmWithoutAFrameLeavesNothing) {
+  { const PreviewWriter writer(folder_ / "film.mp4", camera_, 15.0); }
+  EXPECT_EQ(fileCount(), 0U);
+}
+
+TEST_F(Preview, MissingFolderIsAnErrorThatNamesTheFile) {
+  const fs::path path = folder_ / "no_such_folder" / "film.mp4";
+  try {
+    PreviewWriter writer(path, camera_, 30.0);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
+  }
+}
+
+TEST_F(Preview, LostFramesEmptyImagesAndMissingPartsAreDrawn) {
+  ContactSheet sheet(folder_ / "sheet.png", camera_);
+  const DepthImage nothing(160, 120, 0.0F);
+  const PartImage no_labels;
+  row_.state = TrackState::Lost;
+  sheet.add({&nothing, &no_labels, nullptr, &row_});
+  sheet.add({&nothing, nullptr, nullptr, nullptr});
+  row_.state = TrackState::Coasting;
+  row_.p_camera.row(2).setConstant(-1.0);  // behind the camera
+  sheet.add(frame(2));
+  EXPECT_NO_THROW(sheet.finish());
+}
+
+TEST_F(Preview, ContactSheetHoldsAtMostTwelvePictures) {
+  for (const int frames : {1, 40}) {
+    const fs::path path = folder_ / "sheet.png";
+    ContactSheet sheet(path, camera_);
+    for (int k = 0; k < frames; ++k) sheet.add(frame(k));
+    sheet.finish();
+    const auto expected = frames == 1 ? std::pair{640U, 260U} : std::pair{3U * 640U + 12U, 4U * 260U + 18U};
+    EXPECT_EQ(pngSize(path), expected);
+  }
+}
+
+TEST_F(Preview, ContactSheetWithoutAFrameIsAnError) {
+  ContactSheet sheet(folder_ / "sheet.png", camera_);
+  EXPECT_THROW(sheet.finish(), Error);
+  EXPECT_EQ(fileCount(), 0U);
+}
+
+}  // namespace
+}  // namespace depthmocap
