@@ -33,7 +33,7 @@ std::string mutated(std::string text, Random& random) {
 
 class MotionFuzz : public test::MotionFolder {
  protected:
-  static constexpr int kRounds = 500;
+  static constexpr int kRounds = 200;
 
   // Reads damaged copies of `good`; some must be found damaged and some still be read, or the test tests nothing.
   template <typename Read>
