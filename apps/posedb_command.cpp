@@ -14,6 +14,7 @@
 #include "apps/commands.h"
 #include "apps/progress.h"
 #include "forest/motions/procedural_motions.h"
+#include "forest/pose_model/pose_mixture.h"
 #include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/motion/motion_files.h"
@@ -35,6 +36,8 @@ struct BuildOptions {
   std::string mirror = "on";
   double threshold_m = PoseDatabaseConfig{}.threshold_m;
   double amc_fps = LoadOptions{}.amc_fps;
+  fs::path samples;  // pose mixture to draw from; empty = none
+  std::size_t sample_count = 30000;
   std::uint64_t seed = 1;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
@@ -125,8 +128,20 @@ std::string originOf(const BuildOptions& o, const ReadMotions& read) {
   std::string origin =
       fmt::format("{} captured and {} procedural motions", read.captured, read.clips.size() - read.captured);
   if (o.procedural) origin += fmt::format(" (seed {})", o.seed);
+  if (!o.samples.empty()) origin += fmt::format(", {} samples of a pose mixture (seed {})", o.sample_count, o.seed);
   if (!o.exclude.empty()) origin += fmt::format(", without {}", fmt::join(o.exclude, " "));
   return origin + fmt::format(", threshold {} m, mirror {}", o.threshold_m, o.mirror);
+}
+
+// Draws poses as one more source. They are not thinned out: two draws are hardly ever alike.
+void addSamples(const PoseMixture& mixture, const BuildOptions& o, PoseDatabase& database) {
+  PoseDatabase::Source source{"samples", static_cast<std::uint32_t>(database.size()), 0};
+  for (auto& q : samplePoses(mixture, o.sample_count, o.seed)) {
+    q[kRootTx] = q[kRootTy] = q[kRootTz] = q[kRootRy] = 0;
+    database.poses.push_back(q);
+    ++source.count;
+  }
+  database.sources.push_back(source);
 }
 
 void build(const BuildOptions& o) {
@@ -136,6 +151,7 @@ void build(const BuildOptions& o) {
   // Found now, not after minutes of work.
   const fs::path folder = o.out.has_parent_path() ? o.out.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) throw Error("the folder does not exist", o.out.string(), "create it first");
+  const PoseMixture mixture = o.samples.empty() ? PoseMixture{} : loadPoseMixture(o.samples);
   const auto start = std::chrono::steady_clock::now();
   const ReadMotions read = readMotions(o);
   PoseDatabaseConfig config;
@@ -144,6 +160,7 @@ void build(const BuildOptions& o) {
   config.threads = o.threads;
   PoseDatabaseResult result = buildPoseDatabase(read.clips, config);
   result.database.origin = originOf(o, read);
+  if (!o.samples.empty()) addSamples(mixture, o, result.database);
   savePoseDatabase(result.database, o.out);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("motions      {} read, {} broken, {} procedural\n", read.captured, read.broken,
@@ -155,8 +172,25 @@ void build(const BuildOptions& o) {
   fmt::print("frames       {}{}, {} beyond the joint limits\n", result.counts.frames,
              config.mirror ? " with mirror images" : "", result.counts.beyond_limits);
   fmt::print("poses        {} kept\n", result.counts.kept);
+  if (!o.samples.empty()) fmt::print("samples      {}\n", o.sample_count);
   fmt::print("file         {}, {:.1f} MB\n", o.out.string(), static_cast<double>(fs::file_size(o.out)) / kMegabyte);
   fmt::print("time         {:.1f} s\n", seconds);
+}
+
+struct LearnOptions {
+  fs::path database;
+  fs::path out;
+  PoseMixtureConfig config;
+};
+
+void learn(const LearnOptions& o) {
+  const PoseDatabase database = loadPoseDatabase(o.database);
+  PoseMixture mixture = fitPoseMixture(database, o.config);
+  mixture.origin = fmt::format("learned from {} poses: {}", database.size(), database.origin);
+  savePoseMixture(mixture, o.out);
+  fmt::print("poses        {}\n", database.size());
+  fmt::print("components   {}\n", mixture.components.size());
+  fmt::print("file         {}, {:.2f} MB\n", o.out.string(), static_cast<double>(fs::file_size(o.out)) / kMegabyte);
 }
 
 struct InfoOptions {
@@ -194,11 +228,31 @@ void addBuild(CLI::App& posedb) {
   command->add_option("--amc-fps", o->amc_fps, "Frame rate of the .amc files, which do not hold it [1/s]")
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
-  command->add_option("--seed", o->seed, "Of the procedural motions")->capture_default_str();
+  command->add_option("--samples", o->samples, "Add poses drawn from this pose mixture (posedb learn)")
+      ->type_name("FILE");
+  command->add_option("--sample-count", o->sample_count, "Poses to draw")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", o->seed, "Of the procedural motions and the samples")->capture_default_str();
   command->add_option("--threads", o->threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->callback([o] { build(*o); });
+}
+
+void addLearn(CLI::App& posedb) {
+  auto* command = posedb.add_subcommand("learn", "Fit a pose mixture to a pose database: statistics, no pose itself");
+  auto o = std::make_shared<LearnOptions>();
+  command->add_option("--posedb", o->database, "Pose database to learn from")->required()->type_name("DB");
+  command->add_option("--out", o->out, "Pose mixture to write")->required()->type_name("FILE");
+  command->add_option("--components", o->config.components, "Clusters to start from; small ones are dissolved")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--seed", o->config.seed, "Of the first clusters")->capture_default_str();
+  command->add_option("--threads", o->config.threads, "Threads; the result does not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->callback([o] { learn(*o); });
 }
 
 void addInfo(CLI::App& posedb) {
@@ -212,9 +266,10 @@ void addInfo(CLI::App& posedb) {
 }  // namespace
 
 void addPosedbCommand(CLI::App& app) {
-  auto* posedb = app.add_subcommand("posedb", "Build and inspect pose databases");
+  auto* posedb = app.add_subcommand("posedb", "Build, learn from and inspect pose databases");
   posedb->require_subcommand(1);
   addBuild(*posedb);
+  addLearn(*posedb);
   addInfo(*posedb);
 }
 

@@ -1,5 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "forest/pose_model/pose_mixture.h"
@@ -63,12 +65,21 @@ Poses means(const Poses& poses, const std::vector<std::size_t>& owner, std::size
   return result;
 }
 
-Poses withoutSmall(const Poses& centres, const std::vector<int>& sizes, int min_size) {
+// Takes the smaller half of the clusters that are too small off the list; false if none is.
+bool dissolveSmall(Poses& centres, const std::vector<int>& sizes, int min_size) {
+  std::vector<int> small;
+  std::copy_if(sizes.begin(), sizes.end(), std::back_inserter(small), [&](int size) { return size < min_size; });
+  if (small.empty()) return false;
+  const auto middle = small.begin() + static_cast<std::ptrdiff_t>((small.size() - 1) / 2);
+  std::nth_element(small.begin(), middle, small.end());
   Poses kept;
   for (std::size_t c = 0; c < centres.size(); ++c) {
-    if (sizes[c] >= min_size) kept.push_back(centres[c]);
+    if (sizes[c] > *middle) kept.push_back(centres[c]);
   }
-  return kept;
+  // All of one size, and too small: any one of them takes the rest.
+  if (kept.empty()) kept.push_back(centres.front());
+  centres = std::move(kept);
+  return true;
 }
 
 PoseMixture::Component fitComponent(const Poses& poses, const std::vector<std::size_t>& owner, std::size_t cluster,
@@ -117,9 +128,10 @@ PoseMixture fitPoseMixture(const PoseDatabase& database, const PoseMixtureConfig
     owner = assign(poses, centres, config.threads);
     centres = means(poses, owner, centres.size(), sizes);
   }
-  centres = withoutSmall(centres, sizes, config.min_poses);
-  owner = assign(poses, centres, config.threads);
-  centres = means(poses, owner, centres.size(), sizes);
+  while (dissolveSmall(centres, sizes, config.min_poses)) {
+    owner = assign(poses, centres, config.threads);
+    centres = means(poses, owner, centres.size(), sizes);
+  }
 
   PoseMixture mixture;
   mixture.components.resize(centres.size());

@@ -50,6 +50,9 @@ class Bytes {
       to[i] = static_cast<float>(stored * unit);
     }
   }
+  void end() const {
+    if (at_ != bytes_.size()) throw Error("the pose mixture is damaged", where_);
+  }
 
  private:
   std::string bytes_;
@@ -97,6 +100,7 @@ PoseMixture loadPoseMixture(const std::filesystem::path& path) {
     bytes.numbers(component.deviation.data(), component.deviation.size(), kAngleUnit_rad);
     mixture.components.push_back(component);
   }
+  bytes.end();
   return mixture;
 }
 
