@@ -20,6 +20,7 @@ using Eigen::Vector3d;
 using Names = std::span<const std::string_view>;
 constexpr std::string_view kHumerus[] = {"%humerus", "%arm", "%upperarm", "%uparm", "%shldr", "%shoulder"};
 constexpr std::string_view kRadius[] = {"%radius", "%forearm", "%lowerarm", "%lowarm", "%elbow"};
+constexpr std::string_view kFingerBase[] = {"%fingerbase"};
 constexpr std::string_view kHand[] = {"%hand"};
 constexpr std::string_view kWrist[] = {"%wrist"};
 constexpr std::string_view kFemur[] = {"%femur", "%upleg", "%upperleg", "%thigh", "%hip"};
@@ -88,14 +89,21 @@ class RoleFinder {
     return {before, limb.tip};
   }
 
-  // ASF skeletons divide the forearm: radius, then a bone "wrist" that only pronates, then the hand. Where the palms
-  // stand on the floor (cartwheels, CMU 49_06 to 49_08), radius ends 6 cm above it and the "wrist" bone 3 cm below: the
-  // wrist's centre is half way between.
+  // ASF skeletons divide the forearm: radius, then a bone "wrist" half as long that only pronates, then the hand. Where
+  // the palms stand on the floor (cartwheels, CMU 49_06 to 49_08), radius ends 6 cm above it and the "wrist" bone 3 cm
+  // below: the wrist's centre is half way between. The cgspeed BVH files of the same motions leave the "wrist" bone
+  // out.
   [[nodiscard]] SourcePoint wrist(std::string_view short_side, std::string_view long_side, int radius) const {
+    constexpr double kWristBeyondRadius = 0.25;
     const int hand = sideBone(kHand, short_side, long_side);
     const int wrist = sideBone(kWrist, short_side, long_side);
+    const int finger_base = sideBone(kFingerBase, short_side, long_side);
     if (wrist >= 0 && bones_[static_cast<std::size_t>(wrist)].has_tip && hand >= 0 && parentOf(hand) == wrist) {
       return {wrist, 0.5 * bones_[static_cast<std::size_t>(wrist)].tip};
+    }
+    if (finger_base >= 0 && parentOf(finger_base) == hand && parentOf(hand) == radius &&
+        origin(finger_base) == origin(hand)) {
+      return {radius, (1.0 + kWristBeyondRadius) * bones_[static_cast<std::size_t>(hand)].offset};
     }
     return end(wrist >= 0 ? wrist : hand, radius, "hand");
   }

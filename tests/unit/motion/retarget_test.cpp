@@ -286,6 +286,57 @@ TEST(CapturedWalk, IsContinuousAndUpright) {
   }
 }
 
+// The cgspeed conversions to BVH: other names, a T-pose first, the bone "wrist" left out, CMU's unit.
+TEST_F(MotionFiles, CgspeedConversionsGiveThePosesOfAsfAndAmc) {
+  if (test::dataFolder().empty())
+    GTEST_SKIP() << "no captured motions: set DEPTHMOCAP_DATA to the folder that holds cmu/";
+  const fs::path folder = fs::path(test::dataFolder()) / "cmu/16";
+  SourceMotion motion = readAmc(folder / "16_16.amc", readAsf(folder / "16.asf"), 30.0);
+  const MotionClip clip = loadMotion(folder / "16_16.amc");
+  rename(motion, {{"root", "Hips"},
+                  {"lhipjoint", "LHipJoint"},
+                  {"lfemur", "LeftUpLeg"},
+                  {"ltibia", "LeftLeg"},
+                  {"lfoot", "LeftFoot"},
+                  {"ltoes", "LeftToeBase"},
+                  {"rhipjoint", "RHipJoint"},
+                  {"rfemur", "RightUpLeg"},
+                  {"rtibia", "RightLeg"},
+                  {"rfoot", "RightFoot"},
+                  {"rtoes", "RightToeBase"},
+                  {"lowerback", "LowerBack"},
+                  {"upperback", "Spine"},
+                  {"thorax", "Spine1"},
+                  {"lowerneck", "Neck"},
+                  {"upperneck", "Neck1"},
+                  {"head", "Head"},
+                  {"lclavicle", "LeftShoulder"},
+                  {"lhumerus", "LeftArm"},
+                  {"lradius", "LeftForeArm"},
+                  {"lwrist", "LeftHand"},
+                  {"lhand", "LeftFingerBase"},
+                  {"rclavicle", "RightShoulder"},
+                  {"rhumerus", "RightArm"},
+                  {"rradius", "RightForeArm"},
+                  {"rwrist", "RightHand"},
+                  {"rhand", "RightFingerBase"}});
+  for (std::size_t b = 0; b < motion.bones.size(); ++b) {
+    if (motion.bones[b].name.find("FingerBase") == std::string::npos) continue;
+    motion.bones[b].offset.setZero();
+    for (MotionFrame& frame : motion.frames) frame.position[b].setZero();
+  }
+  MotionFrame t_pose = motion.frames[0];
+  for (auto& rotation : t_pose.rotation) rotation.setIdentity();
+  motion.frames.insert(motion.frames.begin(), t_pose);
+  writeBvh(motion, file("16_16.bvh"), 0.45 / 0.0254);
+  MotionClip converted = loadMotion(file("16_16.bvh"));
+  EXPECT_LT((converted.poses[0] - converted.poses[1]).cwiseAbs().maxCoeff(), 1e-3);
+  converted.poses.erase(converted.poses.begin());
+  ASSERT_EQ(converted.poses.size(), clip.poses.size());
+  EXPECT_NEAR(converted.lengths.lower_arm, clip.lengths.lower_arm, 1e-4);
+  EXPECT_LT(worstAngle(converted.poses, clip.poses), 0.02);
+}
+
 INSTANTIATE_TEST_SUITE_P(OfCmu, CapturedMotions,
                          testing::Values("cmu/02/02_01.amc", "cmu/16/16_15.amc", "cmu/16/16_35.amc", "cmu/09/09_10.amc",
                                          "cmu/49/49_06.amc", "cmu_bvh/salsa/salsa_02.bvh"));
