@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "apps/commands.h"
@@ -175,18 +174,27 @@ void measureImageCurve(const TrainCommand& c, ImageSet& images, TrainingImageSou
   report.by_images.push_back({static_cast<double>(c.images), report.by_trees[0].mean_accuracy});
 }
 
-void runTrain(TrainCommand c) {
-  const auto start = std::chrono::steady_clock::now();
-  ImageSet images = makeImageSet(c.data, PoseUse::Train, c.images);
-  ImageSet held_out = makeImageSet(c.data, PoseUse::Validate, c.validation_images);
+// What can be said before hours of work are done.
+void prepareTraining(TrainCommand& c) {
   c.training.seed = c.data.seed;
   c.training.threads = c.data.threads;
   c.training.memory_bytes = static_cast<std::size_t>(c.memory_gb * 1e9);
-  const fs::path stem = fs::path(c.out).replace_extension();
+  const fs::path out(c.out);
+  if (out.has_parent_path() && !fs::is_directory(out.parent_path())) {
+    throw Error("there is no such folder", out.parent_path().string(), "make it or choose another --out");
+  }
   if (!c.checkpoint_folder.empty()) {
     fs::create_directories(c.checkpoint_folder);
-    c.training.checkpoint = fs::path(c.checkpoint_folder) / stem.filename().replace_extension(".checkpoint");
+    c.training.checkpoint = fs::path(c.checkpoint_folder) / out.stem().replace_extension(".checkpoint");
   }
+  c.training.validate();
+}
+
+void runTrain(TrainCommand c) {
+  prepareTraining(c);
+  const auto start = std::chrono::steady_clock::now();
+  ImageSet images = makeImageSet(c.data, PoseUse::Train, c.images);
+  ImageSet held_out = makeImageSet(c.data, PoseUse::Validate, c.validation_images);
   std::cerr << "data: " << images.source->description() << '\n';
   TrainingReport report;
   TrainingLog log;
@@ -195,10 +203,10 @@ void runTrain(TrainCommand c) {
     log(stage, done);
   });
   report.training_s = secondsSince(start) - report.render_s;
-  const auto today = fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
-  const std::string origin = fmt::format("{}; {:%Y-%m-%d}", images.source->description(), today);
-  const Forest forest = finishedForest(trained, trained.size(), c.training.tree.depth, c.probability_steps, origin);
+  const Forest forest =
+      finishedForest(trained, trained.size(), c.training.tree.depth, c.probability_steps, images.source->description());
   saveForest(forest, c.out);
+  const fs::path stem = fs::path(c.out).replace_extension();
   report.title = stem.filename().string();
   report.command = c.command_line;
   report.data = images.source->description();
