@@ -14,6 +14,12 @@ struct ProgramResult {
   std::string errors;  // stderr
 };
 
+// A path as one word of a shell's command line.
+inline std::string quoted(const std::filesystem::path& path) {
+  std::string word = "'";
+  return word.append(path.string()).append("'");
+}
+
 // Runs the built program with arguments as a shell takes them.
 inline ProgramResult runProgram(const std::string& arguments) {
   const TemporaryFolder folder;
