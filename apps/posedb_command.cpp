@@ -67,7 +67,7 @@ void exclude(std::vector<Item>& items, std::vector<std::string>& pending, NameOf
 std::vector<std::string> readFiles(const std::vector<fs::path>& files, const BuildOptions& o, ReadMotions& read) {
   LoadOptions load;
   load.amc_fps = o.amc_fps;
-  const auto block = static_cast<std::size_t>(4 * o.threads);
+  const std::size_t block = 4 * static_cast<std::size_t>(o.threads);
   Progress progress("motions", std::max<std::size_t>(1, files.size()));
   std::vector<std::string> warnings;
   for (std::size_t first = 0; first < files.size(); first += block) {
