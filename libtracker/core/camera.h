@@ -7,13 +7,13 @@ namespace depthmocap {
 // Pinhole camera with Brown-Conrady distortion. Camera frame: x right, y down, z forward, metres.
 // Depth images inside the program are already undistorted, so project/unproject are the plain pinhole model.
 struct CameraModel {
-  int width = 640;                          // [px] (> 0)
-  int height = 480;                         // [px] (> 0)
-  double fx = 525.0;                        // [px] (> 0)
-  double fy = 525.0;                        // [px] (> 0)
-  double cx = 319.5;                        // [px]
-  double cy = 239.5;                        // [px]
-  std::array<double, 5> distortion{};       // k1 k2 p1 p2 k3; all 0 = none
+  int width = 640;                     // [px] (> 0)
+  int height = 480;                    // [px] (> 0)
+  double fx = 525.0;                   // [px] (> 0)
+  double fy = 525.0;                   // [px] (> 0)
+  double cx = 319.5;                   // [px]
+  double cy = 239.5;                   // [px]
+  std::array<double, 5> distortion{};  // k1 k2 p1 p2 k3; all 0 = none
 
   // Pixel centre (u, v) at depth [m] along the optical axis to p_camera [m].
   [[nodiscard]] Eigen::Vector3d unproject(double u, double v, double depth_m) const {
@@ -28,6 +28,8 @@ struct CameraModel {
 
 // World frame without knowledge of gravity: y up, x right, z towards the camera; the same origin as the camera.
 // p_world = R_world_camera * p_camera; the matrix is its own inverse.
-inline Eigen::Matrix3d uprightWorldFromCamera() { return Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal(); }
+inline Eigen::Matrix3d uprightWorldFromCamera() {
+  return Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+}
 
 }  // namespace depthmocap

@@ -30,9 +30,9 @@ enum class Joint : int {
 inline constexpr int kJointCount = 18;
 
 inline constexpr std::array<std::string_view, kJointCount> kJointNames = {
-    "pelvis",      "spine",       "neck",     "head",      "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
-    "right_elbow", "right_wrist", "left_hip", "left_knee", "left_ankle",    "left_toe",   "right_hip",  "right_knee",
-    "right_ankle", "right_toe"};
+    "pelvis",     "spine",          "neck",        "head",        "left_shoulder", "left_elbow",
+    "left_wrist", "right_shoulder", "right_elbow", "right_wrist", "left_hip",      "left_knee",
+    "left_ankle", "left_toe",       "right_hip",   "right_knee",  "right_ankle",   "right_toe"};
 
 // Joint positions [m], one column a joint; which frame is said where it is used.
 using JointPositions = Eigen::Matrix<double, 3, kJointCount>;

@@ -28,10 +28,22 @@ enum class Part : std::uint8_t {
 
 inline constexpr int kPartCount = 15;  // without None; a part's index in an array of 15 is its number - 1
 
-inline constexpr std::array<std::string_view, kPartCount + 1> kPartNames = {
-    "none",           "head",       "neck",           "left_shoulder",  "right_shoulder", "left_upper_arm",
-    "right_upper_arm", "left_lower_arm", "right_lower_arm", "torso",          "left_waist",     "right_waist",
-    "left_upper_leg", "right_upper_leg", "left_lower_leg", "right_lower_leg"};
+inline constexpr std::array<std::string_view, kPartCount + 1> kPartNames = {"none",
+                                                                            "head",
+                                                                            "neck",
+                                                                            "left_shoulder",
+                                                                            "right_shoulder",
+                                                                            "left_upper_arm",
+                                                                            "right_upper_arm",
+                                                                            "left_lower_arm",
+                                                                            "right_lower_arm",
+                                                                            "torso",
+                                                                            "left_waist",
+                                                                            "right_waist",
+                                                                            "left_upper_leg",
+                                                                            "right_upper_leg",
+                                                                            "left_lower_leg",
+                                                                            "right_lower_leg"};
 
 // The display colour of each part, RGB; left parts lean to blue and green, right parts to red and yellow.
 inline constexpr std::array<std::array<std::uint8_t, 3>, kPartCount + 1> kPartColors = {{{0, 0, 0},
@@ -60,7 +72,11 @@ constexpr Part mirrored(Part part) {
   return static_cast<Part>(is_left ? n + 1 : n - 1);
 }
 
-constexpr int partIndex(Part part) { return static_cast<int>(part) - 1; }
-constexpr Part partAt(int index) { return static_cast<Part>(index + 1); }
+constexpr int partIndex(Part part) {
+  return static_cast<int>(part) - 1;
+}
+constexpr Part partAt(int index) {
+  return static_cast<Part>(index + 1);
+}
 
 }  // namespace depthmocap

@@ -5,8 +5,8 @@
 
 namespace depthmocap {
 
-// A small generator whose output is the same on every platform (std distributions are not). PCG-XSH-RR 64/32 (O'Neill 2014).
-// Seeds are parameters: nothing seeds itself from a clock.
+// A small generator whose output is the same on every platform (std distributions are not). PCG-XSH-RR 64/32 (O'Neill
+// 2014). Seeds are parameters: nothing seeds itself from a clock.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : increment_((stream << 1U) | 1U) {

@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/camera.h"
+#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/marker_set.h"
 #include "libtracker/markers/mean_shift.h"
 #include "libtracker/markers/voxel_votes.h"

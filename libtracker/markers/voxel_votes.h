@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/camera.h"
+#include "libtracker/core/classified_pixels.h"
 
 namespace depthmocap {
 

@@ -13,9 +13,9 @@ namespace depthmocap {
 // (root_tx = root_ty = root_tz = root_ry = 0). One file, loaded whole.
 struct PoseDatabase {
   struct Source {
-    std::string name;          // motion
-    std::uint32_t first = 0;   // index of its first pose
-    std::uint32_t count = 0;   // poses kept
+    std::string name;         // motion
+    std::uint32_t first = 0;  // index of its first pose
+    std::uint32_t count = 0;  // poses kept
   };
   std::vector<Eigen::Matrix<float, kDofCount, 1>> poses;
   std::vector<Source> sources;

@@ -35,9 +35,7 @@ struct Scene {
   MovingBody body;
   PoseDatabase database = madeUpDatabase();
 
-  PoseSearch search(const PoseSearchConfig& config = {}) const {
-    return {database, body.skeleton, body.model, config};
-  }
+  PoseSearch search(const PoseSearchConfig& config = {}) const { return {database, body.skeleton, body.model, config}; }
   // A query for a pose between those of the database, turned and moved; markers with noise.
   [[nodiscard]] PoseQuery query(std::uint64_t motion, double t, double heading, double noise_m, int missing,
                                 Random& random) const {
