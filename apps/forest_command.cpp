@@ -158,7 +158,7 @@ void measureCurves(const TrainCommand& c, const std::vector<TrainedTree>& traine
 // One tree each from ever fewer images.
 void measureImageCurve(const TrainCommand& c, ImageSet& images, TrainingImageSource& validation,
                        TrainingReport& report) {
-  for (const std::size_t part : {64, 16, 4}) {
+  for (const std::size_t part : {64U, 16U, 4U}) {
     RenderedImageOptions fewer = images.source->options();
     fewer.count = std::max<std::size_t>(1, c.images / part);
     RenderedImageSource source(images.bodies, images.poses, fewer);
