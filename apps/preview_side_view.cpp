@@ -123,7 +123,8 @@ void SideView::drawPoints(const PreviewFrame& frame, const cv::Mat& shading, cv:
       for (int k = 0; k < dot * dot; ++k) {
         const int px = left + k % dot;
         const int py = top + k / dot;
-        float& nearest = nearest_[static_cast<std::size_t>(py * panel.cols + px)];
+        float& nearest = nearest_[static_cast<std::size_t>(py) * static_cast<std::size_t>(panel.cols) +
+                                  static_cast<std::size_t>(px)];
         if (p.depth > nearest) continue;
         nearest = p.depth;
         panel.at<cv::Vec3b>(py, px) =

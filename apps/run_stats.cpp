@@ -1,6 +1,7 @@
 #include "apps/run_stats.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -18,7 +19,7 @@ ordered_json summary(std::vector<double> ms) {
   if (ms.empty()) return {{"p50", 0.0}, {"p95", 0.0}, {"p99", 0.0}, {"mean", 0.0}};
   std::sort(ms.begin(), ms.end());
   const auto rank = [&](double share) {
-    return ms[static_cast<std::size_t>(share * static_cast<double>(ms.size() - 1) + 0.5)];
+    return ms[static_cast<std::size_t>(std::lround(share * static_cast<double>(ms.size() - 1)))];
   };
   const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
   return {{"p50", rank(0.50)}, {"p95", rank(0.95)}, {"p99", rank(0.99)}, {"mean", mean}};
@@ -31,7 +32,7 @@ ordered_json summary(const std::vector<StageTimes>& times, double StageTimes::*s
   return summary(std::move(ms));
 }
 
-double peakRss_mb() {
+double peakRssMb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
@@ -72,7 +73,7 @@ void RunStats::write(const std::filesystem::path& path, double wall_s, bool adap
                               {"solver_iterations_mean", frames_ > 0 ? iterations / static_cast<double>(frames_) : 0.0},
                               {"stature_m", stature_m_},
                               {"size_adapted", adapted},
-                              {"peak_rss_mb", peakRss_mb()},
+                              {"peak_rss_mb", peakRssMb()},
                               {"version", DEPTHMOCAP_VERSION}};
   writeFileAtomically(path, stats.dump(2) + "\n");
 }
