@@ -11,6 +11,8 @@
 #include "apps/shipped_files.h"
 #include "apps/track_options.h"
 #include "apps/track_outputs.h"
+#include "libtracker/body/builtin_body.h"
+#include "libtracker/body/sample_surface.h"
 #include "libtracker/core/error.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/tracker/tracker.h"
@@ -20,6 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+constexpr int kSurfacePoints = 1500;  // of the average body, for the tracker's dense term
+constexpr std::uint64_t kSurfaceSeed = 1;
 
 struct ReplayOptions {
   fs::path recording;
@@ -36,11 +41,12 @@ std::shared_ptr<const TrackerModels> loadModels(const TrackOptions& options) {
   const auto models = std::make_shared<TrackerModels>();
   models->forest = loadForest(options.forest.empty() ? shippedFile("general.forest") : options.forest);
   models->database = loadPoseDatabase(options.posedb.empty() ? shippedFile("default.posedb") : options.posedb);
+  models->surface = sampleSurface(makeBuiltinBody(BodyShape{}), kSurfacePoints, kSurfaceSeed);
   return models;
 }
 
 TrackerConfig trackerConfig(const TrackOptions& options) {
-  TrackerConfig config;
+  TrackerConfig config = options.method == "paper" ? paperConfig() : TrackerConfig{};
   config.threads = options.threads;
   if (options.assumed_stature_m > 0) config.policy.assumed_stature_m = options.assumed_stature_m;
   return config;

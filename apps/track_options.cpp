@@ -16,6 +16,11 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_option("--stats", o.stats, "Counts and times of each stage, JSON")->type_name("S.json");
   command.add_option("--forest", o.forest, "Body-part classifier (default: the one that comes with the build)");
   command.add_option("--posedb", o.posedb, "Pose database (default: the one that comes with the build)");
+  command
+      .add_option("--method", o.method,
+                  "full: with the dense term and measured weights; paper: as Su, Chai, Xia 2016 give it")
+      ->check(CLI::IsMember({"full", "paper"}))
+      ->capture_default_str();
   command.add_option("--stature", o.assumed_stature_m, "Stature to start from without --actor [m]")
       ->check(CLI::Range(1.0, 2.2));
   command.add_option("--threads", o.threads, "Threads; the results do not depend on it")

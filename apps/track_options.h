@@ -21,6 +21,7 @@ struct TrackOptions {
   std::filesystem::path contact_sheet;
   std::filesystem::path stats;
   int threads = 2;
+  std::string method = "full";
   double assumed_stature_m = 0;  // [m] 0 = the tracker's default
 };
 

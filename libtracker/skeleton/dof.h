@@ -35,7 +35,7 @@ enum Dof : int {
   kLradiusRy,
   kNeckRx,  // swing (rx, 0, rz)
   kNeckRz,
-  kHeadRy,   // turn of the head
+  kHeadRy,    // turn of the head
   kRfemurRx,  // swing (rx, 0, rz); twist ry about the leg
   kRfemurRy,
   kRfemurRz,
@@ -57,11 +57,11 @@ inline constexpr int kFirstBodyDof = kUpperbackRx;  // DoFs from here on do not 
 using Pose = Eigen::Matrix<double, kDofCount, 1>;
 
 inline constexpr std::array<std::string_view, kDofCount> kDofNames = {
-    "root_tx",      "root_ty",      "root_tz",      "root_rx",      "root_ry",     "root_rz",     "upperback_rx",
-    "upperback_ry", "upperback_rz", "rclavicle_ry", "rclavicle_rz", "lclavicle_ry", "lclavicle_rz", "rhumerus_rx",
-    "rhumerus_ry",  "rhumerus_rz",  "lhumerus_rx",  "lhumerus_ry",  "lhumerus_rz", "rradius_ry",  "lradius_ry",
-    "neck_rx",      "neck_rz",      "head_ry",      "rfemur_rx",    "rfemur_ry",   "rfemur_rz",   "lfemur_rx",
-    "lfemur_ry",    "lfemur_rz",    "rtibia_rx",    "ltibia_rx",    "rfoot_rx",    "rfoot_ry",    "lfoot_rx",
-    "lfoot_ry"};
+    "root_tx",      "root_ty",      "root_tz",      "root_rx",      "root_ry",      "root_rz",
+    "upperback_rx", "upperback_ry", "upperback_rz", "rclavicle_ry", "rclavicle_rz", "lclavicle_ry",
+    "lclavicle_rz", "rhumerus_rx",  "rhumerus_ry",  "rhumerus_rz",  "lhumerus_rx",  "lhumerus_ry",
+    "lhumerus_rz",  "rradius_ry",   "lradius_ry",   "neck_rx",      "neck_rz",      "head_ry",
+    "rfemur_rx",    "rfemur_ry",    "rfemur_rz",    "lfemur_rx",    "lfemur_ry",    "lfemur_rz",
+    "rtibia_rx",    "ltibia_rx",    "rfoot_rx",     "rfoot_ry",     "lfoot_rx",     "lfoot_ry"};
 
 }  // namespace depthmocap

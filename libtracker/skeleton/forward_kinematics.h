@@ -16,7 +16,9 @@ class ForwardKinematics {
  public:
   void update(const Skeleton& skeleton, const Pose& q);
 
-  [[nodiscard]] const Eigen::Matrix3d& R_world_bone(Bone bone) const { return R_world_[static_cast<std::size_t>(bone)]; }
+  [[nodiscard]] const Eigen::Matrix3d& R_world_bone(Bone bone) const {
+    return R_world_[static_cast<std::size_t>(bone)];
+  }
   // World position of the bone's origin [m].
   [[nodiscard]] const Eigen::Vector3d& origin(Bone bone) const { return p_world_[static_cast<std::size_t>(bone)]; }
   // World position [m] of a point rigid with a bone.

@@ -7,7 +7,9 @@ namespace {
 constexpr double kAnkleHeightPerLowerLeg = 0.17;
 constexpr double kCrownPerNeckToHead = 0.70;
 // The foot slopes down from ankle to toe: the toe joint lies near the floor, the ankle at ankle height.
-const Eigen::Vector3d kFootDirection = Eigen::Vector3d(0.0, -0.35, 0.93675);
+Eigen::Vector3d footDirection() {
+  return Eigen::Vector3d(0.0, -0.35, 0.93675).normalized();
+}
 // The clavicles start beside the breast bone, this share of the half shoulder width out and a little below the neck.
 constexpr double kClavicleOriginShare = 0.12;
 // The neck turns halfway up towards the head centre.
@@ -59,7 +61,7 @@ Skeleton makeSkeleton(const BoneLengths& l) {
   limb(1.0, Bone::LeftClavicle, Bone::LeftHumerus, Bone::LeftRadius, Bone::LeftFemur, Bone::LeftTibia, Bone::LeftFoot);
   s.right_wrist = Eigen::Vector3d(-l.lower_arm, 0, 0);
   s.left_wrist = Eigen::Vector3d(l.lower_arm, 0, 0);
-  s.right_toe = s.left_toe = l.foot * kFootDirection.normalized();
+  s.right_toe = s.left_toe = l.foot * footDirection();
   return s;
 }
 

@@ -93,14 +93,15 @@ struct BoneLengths {
 };
 
 inline constexpr int kBoneLengthCount = 12;
-// Names in the order of the fields, as in an actor file; and access by index, so that a list of lengths needs no second copy.
+// Names in the order of the fields, as in an actor file; and access by index, so that a list of lengths needs no second
+// copy.
 inline constexpr std::array<std::string_view, kBoneLengthCount> kBoneLengthNames = {
-    "upper_arm", "lower_arm",    "upper_leg", "lower_leg", "foot",     "shoulder_width",
-    "hip_width", "torso",        "neck_to_head", "spine",  "hip_drop", "shoulder_drop"};
+    "upper_arm", "lower_arm", "upper_leg",    "lower_leg", "foot",     "shoulder_width",
+    "hip_width", "torso",     "neck_to_head", "spine",     "hip_drop", "shoulder_drop"};
 inline constexpr std::array<double BoneLengths::*, kBoneLengthCount> kBoneLengthFields = {
-    &BoneLengths::upper_arm, &BoneLengths::lower_arm, &BoneLengths::upper_leg,    &BoneLengths::lower_leg,
-    &BoneLengths::foot,      &BoneLengths::shoulder_width, &BoneLengths::hip_width, &BoneLengths::torso,
-    &BoneLengths::neck_to_head, &BoneLengths::spine,  &BoneLengths::hip_drop,     &BoneLengths::shoulder_drop};
+    &BoneLengths::upper_arm,    &BoneLengths::lower_arm,      &BoneLengths::upper_leg, &BoneLengths::lower_leg,
+    &BoneLengths::foot,         &BoneLengths::shoulder_width, &BoneLengths::hip_width, &BoneLengths::torso,
+    &BoneLengths::neck_to_head, &BoneLengths::spine,          &BoneLengths::hip_drop,  &BoneLengths::shoulder_drop};
 
 // Standing height [m] of a body with these lengths: ankle height + legs + torso + neck_to_head + half a head.
 double statureOf(const BoneLengths& lengths);

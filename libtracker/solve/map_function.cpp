@@ -7,7 +7,8 @@ constexpr int kMarkerRow = 0;
 constexpr int kPriorRow = kMarkerRow + MarkerTerm::kRows;
 constexpr int kSmoothRow = kPriorRow + PriorTerm::kRows;
 constexpr int kLimitRow = kSmoothRow + SmoothTerm::kRows;
-static_assert(kLimitRow + LimitTerm::kRows == MapFunction::NUM_RESIDUALS);
+constexpr int kSurfaceRow = kLimitRow + LimitTerm::kRows;
+static_assert(kSurfaceRow + SurfaceTerm::kRows == MapFunction::NUM_RESIDUALS);
 
 using Residuals = Eigen::Matrix<double, MapFunction::NUM_RESIDUALS, 1>;
 using Jacobian = Eigen::Matrix<double, MapFunction::NUM_RESIDUALS, kDofCount>;
@@ -35,7 +36,8 @@ MapFunction::MapFunction(const MapInput& input, const MapConfig& config)
       marker_(input.skeleton, input.markers, input.markers_world, config.lambda_marker, config.sigma_m),
       prior_(input.prior, config.lambda_prior),
       smooth_(input.q_prev, input.q_prev2, input.time_ratio * config.velocity_share, config.lambda_smooth),
-      limit_(config.lambda_limit) {}
+      limit_(config.lambda_limit),
+      surface_(input.skeleton, input.surface, config.lambda_surface, config.sigma_surface_m) {}
 
 bool MapFunction::operator()(const double* parameters, double* residuals, double* jacobian) const {
   const Pose q = Eigen::Map<const Pose>(parameters);
@@ -44,6 +46,7 @@ bool MapFunction::operator()(const double* parameters, double* residuals, double
   evaluateTerm(prior_, kPriorRow, q, r, jacobian);
   evaluateTerm(smooth_, kSmoothRow, q, r, jacobian);
   evaluateTerm(limit_, kLimitRow, q, r, jacobian);
+  evaluateTerm(surface_, kSurfaceRow, q, r, jacobian);
   return true;
 }
 
@@ -55,6 +58,7 @@ void MapFunction::summarise(const Pose& q, MapSummary& summary) const {
   summary.e_prior = unweighted(r.segment<PriorTerm::kRows>(kPriorRow).squaredNorm(), config_.lambda_prior);
   summary.e_smooth = unweighted(r.segment<SmoothTerm::kRows>(kSmoothRow).squaredNorm(), config_.lambda_smooth);
   summary.e_limit = unweighted(r.segment<LimitTerm::kRows>(kLimitRow).squaredNorm(), config_.lambda_limit);
+  summary.e_surface = unweighted(r.segment<SurfaceTerm::kRows>(kSurfaceRow).squaredNorm(), config_.lambda_surface);
   summary.rms_marker_m = marker_.rms(q);
 }
 

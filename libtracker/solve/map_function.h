@@ -4,6 +4,7 @@
 #include "libtracker/solve/marker_term.h"
 #include "libtracker/solve/prior_term.h"
 #include "libtracker/solve/smooth_term.h"
+#include "libtracker/solve/surface_term.h"
 
 namespace depthmocap {
 
@@ -14,7 +15,7 @@ class MapFunction {
   using Scalar = double;
   // Names and kind as TinySolver wants them.
   enum {
-    NUM_RESIDUALS = MarkerTerm::kRows + PriorTerm::kRows + SmoothTerm::kRows + LimitTerm::kRows,
+    NUM_RESIDUALS = MarkerTerm::kRows + PriorTerm::kRows + SmoothTerm::kRows + LimitTerm::kRows + SurfaceTerm::kRows,
     NUM_PARAMETERS = kDofCount
   };
 
@@ -31,6 +32,7 @@ class MapFunction {
   PriorTerm prior_;
   SmoothTerm smooth_;
   LimitTerm limit_;
+  mutable SurfaceTerm surface_;
 };
 
 }  // namespace depthmocap

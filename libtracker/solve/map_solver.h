@@ -5,6 +5,7 @@
 #include "libtracker/skeleton/local_prior.h"
 #include "libtracker/skeleton/marker_model.h"
 #include "libtracker/skeleton/skeleton.h"
+#include "libtracker/solve/surface_match.h"
 
 namespace depthmocap {
 
@@ -14,6 +15,8 @@ struct MapConfig {
   double lambda_marker = 5.0;      // (> 0) lambda2
   double lambda_smooth = 1.0;      // (>= 0) lambda3
   double lambda_limit = 10.0;      // (>= 0) joint limits, beyond the paper; 0 = none
+  double lambda_surface = 0.5;     // (>= 0) a match of the dense term, beyond the paper; 0 = none
+  double sigma_surface_m = 0.03;   // [m] (> 0) of the dense term
   double velocity_share = 1.0;     // (0 .. 1) share of the last velocity that E_smooth expects to go on; 1: the paper
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
   int max_iterations = 20;         // (>= 1) a guard: the mean is about 5
@@ -30,7 +33,8 @@ struct MapInput {
   // The poses before, in the world; both: constant velocity is expected; q_prev alone: no motion; none: no smooth term.
   const Pose* q_prev = nullptr;
   const Pose* q_prev2 = nullptr;
-  double time_ratio = 1.0;  // (> 0) time since q_prev over the time between q_prev2 and q_prev
+  const SurfaceMatches* surface = nullptr;  // nullptr: no dense term
+  double time_ratio = 1.0;                  // (> 0) time since q_prev over the time between q_prev2 and q_prev
 };
 
 // What the solve found. e_*: the terms of (5) without their lambda, at the result.
@@ -40,6 +44,7 @@ struct MapSummary {
   double e_prior = 0;       // [rad^2]
   double e_smooth = 0;      // [m^2 + rad^2]
   double e_limit = 0;       // [rad^2]
+  double e_surface = 0;     // squared distances over 2 sigma^2
   double rms_marker_m = 0;  // [m] confidence-weighted distance of the seen markers; 0 if none
   int iterations = 0;       // Levenberg-Marquardt steps tried
   bool converged = false;   // false: max_iterations came first

@@ -26,6 +26,9 @@ class GlobalSearch {
                      const PoseDatabase& database, PoseSearch& search, LocalPriorBuilder& prior_builder,
                      MapSolver& solver);
 
+  // The local model of the last find().
+  [[nodiscard]] const LocalPrior& prior() const { return prior_; }
+
  private:
   void chooseStarts(const PoseDatabase& database);
 

@@ -6,6 +6,7 @@
 #include "libtracker/segment/segment.h"
 #include "libtracker/solve/size_estimate.h"
 #include "libtracker/tracker/alignment.h"
+#include "libtracker/tracker/dense_refinement.h"
 #include "libtracker/tracker/global_search.h"
 #include "libtracker/tracker/joint_confidence.h"
 #include "libtracker/tracker/size_adapter.h"
@@ -40,7 +41,8 @@ struct Tracker::Stages {
         search(models->database, size.actor().skeleton, size.actor().markers, config.search),
         prior_builder(config.prior),
         solver(config.solve),
-        global(config.prior.neighbours.back(), config.policy.start_poses) {}
+        global(config.prior.neighbours.back(), config.policy.start_poses),
+        dense(config.surface, config.policy.dense_rounds) {}
 
   void begin(const DepthFrame& frame);
   void predict();
@@ -68,6 +70,7 @@ struct Tracker::Stages {
   LocalPriorBuilder prior_builder;
   MapSolver solver;
   GlobalSearch global;
+  DenseRefinement dense;
 
   // Of the present frame.
   double dt_s = 0;
@@ -120,6 +123,7 @@ void Tracker::Stages::buildPrior() {
 }
 
 void Tracker::Stages::solve() {
+  dense.observe(pixels, camera, R_world_camera);
   const bool enough = markers_world.seenCount() >= config.policy.min_markers;
   const bool found = enough && (predicted ? solveNext() : solveFirst());
   if (!found) history.miss(out.time_s, config.policy.coast_s);
@@ -138,7 +142,11 @@ bool Tracker::Stages::solveFirst() {
   }
   if (!found->found || !believed(found->summary)) return false;
   summary = found->summary;
-  history.accept(found->q, out.time_s, true);
+  Pose q = found->q;
+  const ActorModel& actor = size.actor();
+  dense.refine(models->surface, actor, {actor.skeleton, actor.markers, markers_world, &global.prior()}, solver, q,
+               summary);
+  history.accept(q, out.time_s, true);
   out.reinitialised = true;
   return true;
 }
@@ -148,7 +156,8 @@ bool Tracker::Stages::solveNext() {
   Pose q = q_predicted;
   const Pose q_prev2 = history.prev2(out.time_s);
   const ActorModel& actor = size.actor();
-  summary = solver.solve({actor.skeleton, actor.markers, markers_world, &prior, &history.prev(), &q_prev2}, q);
+  const MapInput input{actor.skeleton, actor.markers, markers_world, &prior, &history.prev(), &q_prev2};
+  summary = solver.solve(input, q);
   if (summary.rms_marker_m > config.policy.suspect_rms_m) {
     const auto& other =
         global.find(markers_world, searchScale(), actor, models->database, search, prior_builder, solver);
@@ -159,6 +168,7 @@ bool Tracker::Stages::solveNext() {
       out.reinitialised = true;
     }
   }
+  dense.refine(models->surface, actor, input, solver, q, summary);
   if (!believed(summary)) return false;
   history.accept(q, out.time_s, out.reinitialised);
   observeSize(q, dt_s);

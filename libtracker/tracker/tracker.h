@@ -6,6 +6,7 @@
 #include "libtracker/core/camera.h"
 #include "libtracker/core/depth_frame.h"
 #include "libtracker/posedb/pose_database.h"
+#include "libtracker/skeleton/surface_model.h"
 #include "libtracker/tracker/actor_model.h"
 #include "libtracker/tracker/tracked_frame.h"
 #include "libtracker/tracker/tracker_config.h"
@@ -16,6 +17,7 @@ namespace depthmocap {
 struct TrackerModels {
   Forest forest;
   PoseDatabase database;
+  SurfaceModel surface;  // of an average body; without points the dense term is off
 };
 
 // Tracks one actor through the frames of one camera (Su, Chai, Xia 2016; method section A).

@@ -13,6 +13,22 @@ void require(bool holds, const char* rule) {
 
 }  // namespace
 
+MapConfig measuredWeights() {
+  MapConfig weights;
+  weights.lambda_prior = 30.0;
+  weights.lambda_smooth = 10.0;
+  weights.velocity_share = 0.8;
+  weights.lambda_surface = 2.0;
+  return weights;
+}
+
+TrackerConfig paperConfig() {
+  TrackerConfig config;
+  config.solve = MapConfig{};
+  config.policy.dense_rounds = 0;
+  return config;
+}
+
 void TrackPolicy::validate() const {
   require(min_markers >= 1 && min_markers <= kPartCount, "min_markers must be from 1 to 15");
   require(max_rms_m > 0, "max_rms_m must be positive");
@@ -20,6 +36,7 @@ void TrackPolicy::validate() const {
   require(switch_gain > 0 && switch_gain < 1, "switch_gain must lie between 0 and 1");
   require(coast_s >= 0, "coast_s must not be negative");
   require(start_poses >= 1, "start_poses must be at least 1");
+  require(dense_rounds >= 0, "dense_rounds must not be negative");
   require(assumed_stature_m >= 1.0 && assumed_stature_m <= 2.2, "assumed_stature_m must lie between 1.0 and 2.2");
   require(adapt_s >= 0, "adapt_s must not be negative");
 }
@@ -30,6 +47,7 @@ void TrackerConfig::validate() const {
   search.validate();
   prior.validate();
   solve.validate();
+  surface.validate();
   policy.validate();
   if (classify.stride < 1) throw Error("stride must be at least 1", "ClassifyConfig");
   if (threads < 1) throw Error("threads must be at least 1", "TrackerConfig");

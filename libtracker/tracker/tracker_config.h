@@ -5,6 +5,7 @@
 #include "libtracker/prior/local_prior.h"
 #include "libtracker/segment/segment.h"
 #include "libtracker/solve/map_solver.h"
+#include "libtracker/solve/surface_matcher.h"
 
 namespace depthmocap {
 
@@ -16,10 +17,15 @@ struct TrackPolicy {
   double switch_gain = 0.6;      // (0 .. 1) the global pose wins if its energy is below this share of the tracked one's
   double coast_s = 0.4;          // [s] a pose is carried on without evidence, then the actor is lost
   int start_poses = 6;           // (>= 1) database poses a global search solves from
+  int dense_rounds = 3;          // (>= 0) of matching depth with the body's surface; 0 = markers only, the paper
   double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
   double adapt_s = 3.0;             // [s] of good frames over which an uncalibrated actor's size is fitted
   void validate() const;
 };
+
+// Weights of the solve by measurement (docs/accuracy.md): on radians the paper's prior and smoothness are too weak
+// against markers that are centimetres off, and the dense term knows more than the markers.
+MapConfig measuredWeights();
 
 // Every parameter of the tracker; the defaults work without any file.
 struct TrackerConfig {
@@ -28,10 +34,14 @@ struct TrackerConfig {
   MarkerConfig markers;
   PoseSearchConfig search;
   PriorConfig prior;
-  MapConfig solve;
+  MapConfig solve = measuredWeights();
+  SurfaceMatchConfig surface;
   TrackPolicy policy;
   int threads = 2;  // (>= 1) for the stages that can use them
   void validate() const;
 };
+
+// The method as the paper gives it: its weights, no dense term.
+TrackerConfig paperConfig();
 
 }  // namespace depthmocap

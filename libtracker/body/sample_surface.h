@@ -1,0 +1,12 @@
+#pragma once
+#include <cstdint>
+
+#include "libtracker/body/body_surface.h"
+#include "libtracker/skeleton/surface_model.h"
+
+namespace depthmocap {
+
+// About `points` points spread evenly over a body's surface by area. The same points for the same seed.
+SurfaceModel sampleSurface(const BodySurface& body, int points, std::uint64_t seed);
+
+}  // namespace depthmocap

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "libtracker/core/camera.h"
+#include "libtracker/core/classified_pixels.h"
+#include "libtracker/skeleton/surface_model.h"
+#include "libtracker/solve/map_solver.h"
+#include "libtracker/solve/surface_matcher.h"
+#include "libtracker/tracker/actor_model.h"
+
+namespace depthmocap {
+
+// Beyond the paper: brings the body's surface to the measured points, as iterated closest points do: match, solve (5)
+// with the dense term, match again.
+class DenseRefinement {
+ public:
+  // `rounds` of matching and solving (>= 0; 0 = off).
+  DenseRefinement(const SurfaceMatchConfig& config, int rounds) : matcher_(config), rounds_(rounds) {}
+
+  // Takes a few hundred of the frame's classified pixels, spread evenly.
+  void observe(const ClassifiedPixels& pixels, const CameraModel& camera, const Eigen::Matrix3d& R_world_camera);
+  // q: a solved pose, then the refined one. `input` without its surface; `summary` is replaced where a round was done.
+  void refine(const SurfaceModel& surface, const ActorModel& actor, MapInput input, MapSolver& solver, Pose& q,
+              MapSummary& summary);
+
+ private:
+  SurfaceMatcher matcher_;
+  int rounds_;
+  std::vector<SurfaceSample> samples_;
+  SurfaceMatches matches_;
+  ForwardKinematics fk_;
+};
+
+}  // namespace depthmocap
