@@ -115,7 +115,7 @@ double bestTurn(const Cost& cost) {
   constexpr int kSteps = 16;
   constexpr double kStep = 0.1;
   std::array<double, 2 * kSteps + 1> costs;
-  for (int i = -kSteps; i <= kSteps; ++i) costs[static_cast<std::size_t>(i + kSteps)] = cost(i * kStep);
+  for (std::size_t i = 0; i < costs.size(); ++i) costs[i] = cost((static_cast<int>(i) - kSteps) * kStep);
   const auto best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
   double turn = (static_cast<double>(best) - kSteps) * kStep;
   if (best > 0 && best + 1 < costs.size()) {

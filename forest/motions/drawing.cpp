@@ -73,9 +73,11 @@ RawMotion drawSquare(Studio& studio) {
   return drawCorners(studio, kSquare);
 }
 RawMotion writeZigzag(Studio& studio) {
-  std::vector<Stroke> strokes;
-  for (int i = 0; i < 9; ++i)
-    strokes.push_back({-1.0 + 0.25 * i, i % 2 == 0 ? studio.uniform(0.2, 1.0) : studio.uniform(-1.0, -0.2)});
+  std::array<Stroke, 9> strokes;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const double across = -1.0 + 0.25 * static_cast<double>(i);
+    strokes[i] = {across, i % 2 == 0 ? studio.uniform(0.2, 1.0) : studio.uniform(-1.0, -0.2)};
+  }
   return drawCorners(studio, strokes);
 }
 

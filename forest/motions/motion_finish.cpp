@@ -49,6 +49,7 @@ constexpr std::array<double, kTrunkChannels + kArmChannels> kUnsteadiness = {
 
 void addNaturalNoise(BodyFrames& frames, double liveliness, Random& random) {
   std::vector<Drift> drifts;
+  drifts.reserve(kUnsteadiness.size());
   for (const double amplitude : kUnsteadiness) drifts.emplace_back(random, liveliness * amplitude);
   for (std::size_t t = 0; t < frames.size(); ++t) {
     FrameChannels channels = channelsOf(frames[t]);

@@ -112,8 +112,8 @@ struct DepthRenderer::Impl {
       surface.triangles.assign(triangles.begin(), triangles.end());
       add(surface, quality);
     }
-    void* target = rtcGetGeometryBufferData(surface.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-    std::memcpy(target, surface.vertices.data(), surface.vertices.size() * sizeof(Eigen::Vector3f));
+    auto* target = static_cast<float*>(rtcGetGeometryBufferData(surface.geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+    std::copy_n(surface.vertices.front().data(), 3 * surface.vertices.size(), target);
     rtcUpdateGeometryBuffer(surface.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(surface.geometry);
   }

@@ -87,8 +87,8 @@ Pose drawPose(const PosePool& pool, const PoseVariation& variation, Random& rand
   };
   StoredPose q = any();
   if (random.uniform() < variation.mix_share) {
-    const StoredPose right = any();
-    const StoredPose left = any();
+    const StoredPose& right = any();
+    const StoredPose& left = any();
     for (const int dof : kRightArm) q[dof] = right[dof];
     for (const int dof : kLeftArm) q[dof] = left[dof];
   }

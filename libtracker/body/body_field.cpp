@@ -180,7 +180,7 @@ float BodyField::distance(const Vector3f& point) const {
 }
 
 double fieldVolume(const BodyField& field, double cell) {
-  const Eigen::Vector3f lower = field.lower();
+  const Eigen::Vector3f& lower = field.lower();
   const Eigen::Vector3f size = field.upper() - lower;
   const auto h = static_cast<float>(cell);
   const auto ny = static_cast<int>(size.y() / h) + 2;
