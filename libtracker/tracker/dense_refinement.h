@@ -23,12 +23,18 @@ class DenseRefinement {
   void refine(const SurfaceModel& surface, const ActorModel& actor, MapInput input, MapSolver& solver, Pose& q,
               MapSummary& summary);
 
+  // How much taller the measured person stands than the model at the solved pose: the ratio of their vertical extents.
+  // 0 if it cannot be told (too little of the person in view). Needs the whole person in view.
+  [[nodiscard]] double extentRatio(const SurfaceModel& surface, const ActorModel& actor, const Pose& q);
+
  private:
   SurfaceMatcher matcher_;
   int rounds_;
   std::vector<SurfaceSample> samples_;
   SurfaceMatches matches_;
   ForwardKinematics fk_;
+  std::vector<float> heights_;  // [m] world y of every classified pixel
+  double observed_extent_m_ = 0;
 };
 
 }  // namespace depthmocap

@@ -53,7 +53,7 @@ struct Tracker::Stages {
   void finish();
   [[nodiscard]] double searchScale() const { return statureOf(size.actor().skeleton.lengths) / search_stature_m; }
   [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config.policy.max_rms_m; }
-  void observeSize(const Pose& q, double dt_s);
+  double observedScale(const Pose& q);
 
   const std::shared_ptr<const TrackerModels> models;
   const CameraModel camera;
@@ -135,10 +135,7 @@ bool Tracker::Stages::solveFirst() {
   for (int round = 0; round < kFirstSizeRounds; ++round) {
     found = &global.find(markers_world, searchScale(), size.actor(), models->database, search, prior_builder, solver);
     if (!found->found || !size.adapting()) break;
-    fk.update(size.actor().skeleton, found->q);
-    const SizeEstimate estimate = estimateSize(fk, size.actor().markers, markers_world);
-    if (!estimate.valid) break;
-    size.rescale(estimate.scale);
+    size.rescale(observedScale(found->q));
   }
   if (!found->found || !believed(found->summary)) return false;
   summary = found->summary;
@@ -171,15 +168,20 @@ bool Tracker::Stages::solveNext() {
   dense.refine(models->surface, actor, input, solver, q, summary);
   if (!believed(summary)) return false;
   history.accept(q, out.time_s, out.reinitialised);
-  observeSize(q, dt_s);
+  if (size.adapting()) size.observe(observedScale(q), dt_s);
   return true;
 }
 
-void Tracker::Stages::observeSize(const Pose& q, double seconds) {
-  if (!size.adapting()) return;
+// How much larger the actor is than the skeleton in use: by the height of the whole person where it is in view, else by
+// the markers; 1 if neither can tell.
+double Tracker::Stages::observedScale(const Pose& q) {
+  if (!segmentation.touches_border) {
+    const double ratio = dense.extentRatio(models->surface, size.actor(), q);
+    if (ratio > 0) return ratio;
+  }
   fk.update(size.actor().skeleton, q);
   const SizeEstimate estimate = estimateSize(fk, size.actor().markers, markers_world);
-  if (estimate.valid) size.observe(estimate.scale, seconds);
+  return estimate.valid ? estimate.scale : 1.0;
 }
 
 // What the caller sees of the frame.
