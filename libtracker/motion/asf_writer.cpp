@@ -48,11 +48,11 @@ void writeAsfAmc(const SourceMotion& motion, const std::filesystem::path& asf, c
     if (gap.norm() > kShortest) {
       const std::string fixed = bone.name + "_joint";
       bones += boneText(++id, fixed, gap, "");
-      hierarchy += "    " + parent_name + ' ' + fixed + '\n';
+      hierarchy += fmt::format("    {} {}\n", parent_name, fixed);
       parent_name = fixed;
     }
     bones += boneText(++id, bone.name, bone.tip, "    dof rx ry rz\n");
-    hierarchy += "    " + parent_name + ' ' + bone.name + '\n';
+    hierarchy += fmt::format("    {} {}\n", parent_name, bone.name);
   }
   writeFileAtomically(asf,
                       ":version 1.10\n:name depthmocap\n:units\n  mass 1.0\n  length 0.45\n  angle deg\n:root\n"

@@ -60,7 +60,7 @@ fs::path asfFor(const fs::path& amc) {
   const std::string stem = amc.stem().string();
   for (const std::string& name : {stem.substr(0, stem.rfind('_')), stem}) {
     for (const char* extension : {".asf", ".ASF"}) {
-      const fs::path candidate = amc.parent_path() / (name + extension);
+      fs::path candidate = amc.parent_path() / (name + extension);
       if (fs::is_regular_file(candidate)) return candidate;
     }
   }

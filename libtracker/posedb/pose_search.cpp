@@ -94,7 +94,7 @@ struct PoseSearch::Impl {
         last_proposal(table.size(), 0) {
     for (std::size_t n = 0; n < table.size(); ++n) {
       const MarkerFeatures z = space.project(table, n);
-      std::copy(z.begin(), z.end(), features.begin() + static_cast<std::ptrdiff_t>(n * z.size()));
+      std::copy(z.begin(), z.end(), features.begin() + static_cast<std::ptrdiff_t>(n) * z.size());
     }
     index.buildIndex();
     found.reserve(table.size());

@@ -132,8 +132,9 @@ void ForwardKinematics::update(const Skeleton& skeleton, const Pose& q) {
     }
     R_world_[b] = R_world_parent * local.R;
     const BoneDofs& dofs = kBoneDofs[b];
-    for (int i = 0; i < dofs.count; ++i) {
-      axis_world_[static_cast<std::size_t>(dofs.first + i)] = R_world_parent * local.axis[static_cast<std::size_t>(i)];
+    const auto first = static_cast<std::size_t>(dofs.first);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dofs.count); ++i) {
+      axis_world_[first + i] = R_world_parent * local.axis[i];
     }
   }
 }
