@@ -86,7 +86,7 @@ ImageSet makeImageSet(const DataOptions& data, PoseUse use, std::size_t images) 
   options.count = images;
   options.seed = seed;
   options.t_poses = data.t_pose;
-  options.view.facing_share = 0.5;
+  options.view.facing_share = 0.3;  // half of all views are then within 60 degrees of the camera
   set.source = std::make_unique<RenderedImageSource>(set.bodies, set.poses, options);
   return set;
 }
@@ -95,8 +95,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// ---- train
-// ---------------------------------------------------------------------------------------------------------------
+// ---- train ---------------------------------------------------------------------------------------------------------
 
 struct TrainCommand {
   DataOptions data;
@@ -106,7 +105,7 @@ struct TrainCommand {
   std::size_t images = 20000;
   std::size_t validation_images = 300;
   double memory_gb = 8;
-  int probability_steps = 31;
+  FinishOptions finish;
   bool image_curve = false;
   std::string command_line;
 };
@@ -131,12 +130,17 @@ class TrainingLog {
 
 void measureCurves(const TrainCommand& c, const std::vector<TrainedTree>& trained, const Forest& forest,
                    TrainingImageSource& validation, TrainingReport& report) {
+  const auto with = [&](auto&& change) {
+    FinishOptions options = c.finish;
+    change(options);
+    return finishedForest(trained, options, "");
+  };
   std::vector<Forest> smaller{forest};
   std::vector<CurvePoint*> points{nullptr};
   report.by_trees.resize(trained.size());
   for (std::size_t t = 0; t < trained.size(); ++t) {
     report.by_trees[t].x = static_cast<double>(t + 1);
-    smaller.push_back(finishedForest(trained, t + 1, c.training.tree.depth, c.probability_steps, ""));
+    smaller.push_back(with([&](FinishOptions& o) { o.trees = t + 1; }));
     points.push_back(&report.by_trees[t]);
   }
   std::vector<int> depths;
@@ -144,7 +148,7 @@ void measureCurves(const TrainCommand& c, const std::vector<TrainedTree>& traine
   report.by_depth.resize(depths.size());
   for (std::size_t i = 0; i < depths.size(); ++i) {
     report.by_depth[i].x = depths[i];
-    smaller.push_back(finishedForest(trained, trained.size(), depths[i], c.probability_steps, ""));
+    smaller.push_back(with([&](FinishOptions& o) { o.depth = depths[i]; }));
     points.push_back(&report.by_depth[i]);
   }
   Progress bar("measuring", validation.count());
@@ -167,7 +171,7 @@ void measureImageCurve(const TrainCommand& c, ImageSet& images, TrainingImageSou
     options.checkpoint.clear();
     options.resume = false;
     const auto trained = trainForest(source, options, [](const std::string&, double) {});
-    const Forest forest = finishedForest(trained, 1, options.tree.depth, c.probability_steps, "");
+    const Forest forest = finishedForest(trained, c.finish, "");
     const auto result = measureAccuracy({&forest, 1}, validation, 2, c.data.threads, [](double) {});
     report.by_images.push_back({static_cast<double>(fewer.count), result[0].meanAccuracy()});
   }
@@ -187,6 +191,7 @@ void prepareTraining(TrainCommand& c) {
     fs::create_directories(c.checkpoint_folder);
     c.training.checkpoint = fs::path(c.checkpoint_folder) / out.stem().replace_extension(".checkpoint");
   }
+  if (c.data.t_pose) c.finish.facings = 1;  // all of them are seen from the front
   c.training.validate();
 }
 
@@ -203,8 +208,7 @@ void runTrain(TrainCommand c) {
     log(stage, done);
   });
   report.training_s = secondsSince(start) - report.render_s;
-  const Forest forest =
-      finishedForest(trained, trained.size(), c.training.tree.depth, c.probability_steps, images.source->description());
+  const Forest forest = finishedForest(trained, c.finish, images.source->description());
   saveForest(forest, c.out);
   const fs::path stem = fs::path(c.out).replace_extension();
   report.title = stem.filename().string();
@@ -247,7 +251,7 @@ void addTrain(CLI::App& forest) {
       ->capture_default_str();
   command->add_option("--min-leaf", tree.min_leaf, "Pixels in a leaf")->capture_default_str();
   command->add_option("--max-nodes", tree.max_nodes, "Of a tree")->capture_default_str();
-  command->add_option("--probability-steps", c->probability_steps, "Levels of a leaf's probabilities (1 .. 255)")
+  command->add_option("--probability-steps", c->finish.probability_steps, "Levels of a leaf's probabilities (1 .. 255)")
       ->check(CLI::Range(1, 255))
       ->capture_default_str();
   command->add_option("--memory", c->memory_gb, "[GB] of images kept in memory")->capture_default_str();
@@ -262,8 +266,7 @@ void addTrain(CLI::App& forest) {
   });
 }
 
-// ---- info
-// ----------------------------------------------------------------------------------------------------------------
+// ---- info ----------------------------------------------------------------------------------------------------------
 
 void addInfo(CLI::App& forest) {
   auto file = std::make_shared<std::string>();
@@ -274,14 +277,13 @@ void addInfo(CLI::App& forest) {
     std::cout << fmt::format("{}: {} trees, {:.2f} MB\n{}\n", *file, loaded.trees.size(),
                              static_cast<double>(fs::file_size(*file)) / 1e6, loaded.origin);
     for (const ForestTree& tree : loaded.trees) {
-      std::cout << fmt::format("  {} nodes, {} leaves, depth {}\n", tree.nodes.size(), tree.leaves.size(),
-                               treeDepth(tree));
+      std::cout << fmt::format("  {} nodes, {} leaves, depth {}\n", tree.nodes.size(),
+                               tree.leaves.size() / static_cast<std::size_t>(loaded.facings), treeDepth(tree));
     }
   });
 }
 
-// ---- evaluate
-// ------------------------------------------------------------------------------------------------------------
+// ---- evaluate ------------------------------------------------------------------------------------------------------
 
 struct EvaluateCommand {
   DataOptions data;
@@ -340,6 +342,10 @@ void runEvaluate(const EvaluateCommand& c) {
   std::cout << fmt::format("{}\nmean accuracy over the parts {:.1f} %, over the pixels {:.1f} % of {}\n",
                            source->description(), 100 * confusion.meanAccuracy(), 100 * confusion.accuracy(),
                            confusion.total());
+  if (forest.facings > 1 && c.recording.empty()) {
+    std::cout << fmt::format("the side that is seen found in {:.1f} % of the images\n",
+                             100 * confusion.facingAccuracy());
+  }
   for (int part = 0; part < kPartCount; ++part) {
     std::cout << fmt::format("  {:<16} {:5.1f} %\n", kPartNames[static_cast<std::size_t>(part) + 1],
                              100 * confusion.accuracyOf(part));

@@ -1,5 +1,6 @@
 #include "forest/train/forest_accuracy.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "libtracker/core/parallel.h"
@@ -12,6 +13,11 @@ void countImage(const Forest& forest, const TrainingImage& image, int stride, Co
   for (std::size_t i = 0; i < mask.data.size(); ++i) mask.data[i] = image.depth.data[i] > 0.0F ? 1 : 0;
   ClassifiedPixels classified;
   classify(forest, image.depth, mask, image.focal_px, {.stride = stride}, classified);
+  if (image.facing && !classified.pixels.empty()) {
+    const auto& shares = classified.facing;
+    const auto found = std::max_element(shares.begin(), shares.end()) - shares.begin();
+    ++confusion.facing[static_cast<std::size_t>(*image.facing)][static_cast<std::size_t>(found)];
+  }
   for (const auto& pixel : classified.pixels) {
     const std::uint8_t label = image.labels.at(pixel.x, pixel.y);
     if (label == 0) continue;
@@ -25,6 +31,9 @@ void ConfusionMatrix::add(const ConfusionMatrix& other) {
   for (std::size_t row = 0; row < count.size(); ++row) {
     for (std::size_t column = 0; column < count.size(); ++column) count[row][column] += other.count[row][column];
   }
+  for (std::size_t row = 0; row < facing.size(); ++row) {
+    for (std::size_t column = 0; column < facing.size(); ++column) facing[row][column] += other.facing[row][column];
+  }
 }
 
 std::uint64_t ConfusionMatrix::total() const {
@@ -33,6 +42,16 @@ std::uint64_t ConfusionMatrix::total() const {
     for (const std::uint64_t n : row) sum += n;
   }
   return sum;
+}
+
+double ConfusionMatrix::facingAccuracy() const {
+  std::uint64_t all = 0;
+  std::uint64_t right = 0;
+  for (std::size_t row = 0; row < facing.size(); ++row) {
+    right += facing[row][row];
+    for (const std::uint64_t n : facing[row]) all += n;
+  }
+  return all == 0 ? 0.0 : static_cast<double>(right) / static_cast<double>(all);
 }
 
 double ConfusionMatrix::accuracy() const {

@@ -14,9 +14,13 @@ namespace depthmocap {
 // Pixels counted by true part (row) and most probable part (column), indices 0 .. 14.
 struct ConfusionMatrix {
   std::array<std::array<std::uint64_t, kPartCount>, kPartCount> count{};
+  // Images by true (row) and most probable (column) facing, where the true one is known.
+  std::array<std::array<std::uint64_t, kFacingCount>, kFacingCount> facing{};
 
   void add(const ConfusionMatrix& other);
   [[nodiscard]] std::uint64_t total() const;
+  // Share of the images whose facing was found, [0, 1]; 0 where none is known.
+  [[nodiscard]] double facingAccuracy() const;
   // Share of all pixels that are right, [0, 1].
   [[nodiscard]] double accuracy() const;
   // Share of a part's pixels that are right; 0 where the part was never seen.

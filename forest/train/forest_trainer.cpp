@@ -1,5 +1,7 @@
 #include "forest/train/forest_trainer.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "forest/train/image_store.h"
@@ -58,13 +60,15 @@ std::vector<TrainedTree> trainForest(TrainingImageSource& source, const ForestTr
   return trees;
 }
 
-Forest finishedForest(const std::vector<TrainedTree>& trained, std::size_t trees, int max_depth, int probability_steps,
+Forest finishedForest(const std::vector<TrainedTree>& trained, const FinishOptions& options,
                       const std::string& origin) {
-  DMC_CHECK(trees >= 1 && trees <= trained.size());
+  DMC_CHECK(options.trees >= 1 && !trained.empty());
   Forest forest;
   forest.origin = origin;
-  for (std::size_t t = 0; t < trees; ++t)
-    forest.trees.push_back(finishedTree(trained[t], max_depth, probability_steps));
+  forest.facings = options.facings;
+  for (std::size_t t = 0; t < std::min(options.trees, trained.size()); ++t) {
+    forest.trees.push_back(finishedTree(trained[t], options.depth, options.facings, options.probability_steps));
+  }
   return forest;
 }
 

@@ -35,8 +35,13 @@ using TrainingProgress = std::function<void(const std::string& stage, double don
 std::vector<TrainedTree> trainForest(TrainingImageSource& source, const ForestTrainingOptions& options,
                                      const TrainingProgress& progress);
 
-// The first `trees` trees cut off at `max_depth`, with probabilities in `probability_steps` steps.
-Forest finishedForest(const std::vector<TrainedTree>& trained, std::size_t trees, int max_depth, int probability_steps,
-                      const std::string& origin);
+// How a trained forest is made into one to use.
+struct FinishOptions {
+  std::size_t trees = 64;      // (>= 1) at most so many of the trees
+  int depth = 64;              // (>= 0) cut off there
+  int facings = kFacingCount;  // 1: leaves do not tell the facings apart
+  int probability_steps = 63;  // (1 .. 255) that probabilities are rounded to
+};
+Forest finishedForest(const std::vector<TrainedTree>& trained, const FinishOptions& options, const std::string& origin);
 
 }  // namespace depthmocap

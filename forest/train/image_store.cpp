@@ -36,6 +36,7 @@ void cropTrainingImage(const TrainingImage& image, ImageCrop& crop) {
   crop.width = std::max(0, x1 - x0);
   crop.height = std::max(0, y1 - y0);
   crop.focal_px = image.focal_px;
+  crop.facing = image.facing.value_or(Facing::Front);
   const auto width = static_cast<std::size_t>(crop.width);
   const auto pitch = static_cast<std::size_t>(crop.pitch());
   crop.depth_mm.assign(pitch * static_cast<std::size_t>(crop.height + 2) + 1, kBackgroundDepth_mm);

@@ -15,6 +15,7 @@ struct ImageCrop {
   int width = 0;   // [px] without the border
   int height = 0;  // [px]
   double focal_px = 0;
+  Facing facing = Facing::Front;
   std::vector<std::uint16_t> depth_mm;  // (height + 2) rows of width + 2, and one value that nothing means
   std::vector<std::uint8_t> labels;     // height rows of width
 

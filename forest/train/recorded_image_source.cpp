@@ -32,6 +32,7 @@ std::size_t RecordedImageSource::count() const {
 }
 
 void RecordedImageSource::render(std::size_t i, TrainingImage& image) {
+  image.facing.reset();
   DepthFrame frame;
   {
     const std::lock_guard lock(mutex_);

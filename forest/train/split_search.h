@@ -18,7 +18,7 @@ using ProbeOffset = std::array<std::int16_t, 2>;
 struct FeatureOptions {
   int offsets = 256;          // (>= 2) probes of one level; features are pairs of them
   double min_offset = 2.0;    // [px * m] (> 0)
-  double max_offset = 600.0;  // [px * m] (> min_offset, < 32767)
+  double max_offset = 1000.0;  // [px * m] (> min_offset, < 32767)
   double center_share = 0.4;  // [0, 1] share of features with one probe on the pixel itself
 };
 

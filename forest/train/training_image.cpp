@@ -7,6 +7,7 @@
 namespace depthmocap {
 
 void mirrorImage(TrainingImage& image) {
+  if (image.facing) image.facing = mirrored(*image.facing);
   for (int y = 0; y < image.depth.height; ++y) {
     float* depth = image.depth.data.data() + image.depth.index(0, y);
     std::reverse(depth, depth + image.depth.width);

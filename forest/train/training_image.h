@@ -1,7 +1,9 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 
+#include "libtracker/core/facing.h"
 #include "libtracker/core/image.h"
 
 namespace depthmocap {
@@ -11,6 +13,7 @@ struct TrainingImage {
   DepthImage depth;     // [m] of the actor alone; 0 elsewhere
   PartImage labels;     // Part; 0 = not known or not the actor: never sampled, though its depth is seen by probes
   double focal_px = 0;  // [px] fx of the camera (> 0)
+  std::optional<Facing> facing;  // the side of the actor that is seen, where known
 };
 
 // Where pictures come from. render() is a pure function of i: the trainer asks again for what it cannot keep in memory.
@@ -24,7 +27,7 @@ class TrainingImageSource {
   [[nodiscard]] virtual std::string description() const = 0;
 };
 
-// The picture in a mirror: columns reversed, left and right parts swapped.
+// The picture in a mirror: columns reversed, left and right parts and facings swapped.
 void mirrorImage(TrainingImage& image);
 
 }  // namespace depthmocap

@@ -14,7 +14,8 @@ std::string forestTable(const Forest& forest, std::uintmax_t bytes) {
   std::string text = "| tree | nodes | leaves | depth |\n|---|---|---|---|\n";
   for (std::size_t t = 0; t < forest.trees.size(); ++t) {
     const ForestTree& tree = forest.trees[t];
-    text += fmt::format("| {} | {} | {} | {} |\n", t + 1, tree.nodes.size(), tree.leaves.size(), treeDepth(tree));
+    text +=
+        fmt::format("| {} | {} | {} | {} |\n", t + 1, tree.nodes.size(), tree.nodes.size() / 2 + 1, treeDepth(tree));
   }
   return text + fmt::format("\nFile: {:.2f} MB.\n", static_cast<double>(bytes) / 1e6);
 }
@@ -69,6 +70,10 @@ void writeTrainingReport(const TrainingReport& report, const Forest& forest, std
   text += forestTable(forest, forest_bytes) + "\n## Accuracy on held-out images\n\n";
   text += fmt::format("Mean over the parts **{:.1f} %**; over all pixels {:.1f} % of {}.\n\n",
                       100 * confusion.meanAccuracy(), 100 * confusion.accuracy(), confusion.total());
+  if (forest.facings > 1) {
+    text +=
+        fmt::format("The side that is seen was found in {:.1f} % of the images.\n\n", 100 * confusion.facingAccuracy());
+  }
   text += accuracyTable(confusion) + "\n## Learning curves\n\n";
   text += curveTable("trees", report.by_trees) + curveTable("depth", report.by_depth) +
           curveTable("images (one tree)", report.by_images);

@@ -48,11 +48,14 @@ std::vector<Sample> drawFromImage(const ImageCrop& crop, std::uint32_t count, Ra
 
 TrainingSamples drawSamples(ImageStore& images, std::uint32_t pixels_per_image, std::uint64_t seed, int threads) {
   std::vector<std::vector<Sample>> drawn(images.count());
+  TrainingSamples result;
+  result.facing.resize(images.count());
   parallelFor(threads, images.count(), [&](std::size_t i) {
     ImageCrop scratch;
-    drawn[i] = drawFromImage(images.get(i, scratch), pixels_per_image, Random(seed + i, kSampleStream));
+    const ImageCrop& crop = images.get(i, scratch);
+    result.facing[i] = crop.facing;
+    drawn[i] = drawFromImage(crop, pixels_per_image, Random(seed + i, kSampleStream));
   });
-  TrainingSamples result;
   result.first.push_back(0);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     result.samples.insert(result.samples.end(), drawn[i].begin(), drawn[i].end());

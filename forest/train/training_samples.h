@@ -16,6 +16,7 @@ struct TrainingSamples {
   std::vector<Sample> samples;
   std::vector<std::uint32_t> first;  // of each image, and one past the last
   std::vector<std::uint32_t> image;  // of each sample
+  std::vector<Facing> facing;        // of each image
 
   [[nodiscard]] std::size_t size() const { return samples.size(); }
 };

@@ -31,6 +31,7 @@ class TreeGrower {
       if (!growLevel(level)) break;
       finished_level(level);
     }
+    countLeaves();
   }
 
  private:
@@ -119,6 +120,20 @@ class TreeGrower {
     for (std::size_t s = 0; s < node_of_.size(); ++s) {
       const auto n = static_cast<std::size_t>(node_of_[s]);
       if (n >= first) ++tree_.nodes[n].counts[samples_.samples[s].part_index];
+    }
+  }
+
+  void countLeaves() {
+    std::vector<std::int32_t> leaf_of(tree_.nodes.size(), -1);
+    std::int32_t leaves = 0;
+    for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
+      if (tree_.nodes[n].split.child <= 0) leaf_of[n] = leaves++;
+    }
+    tree_.leaf_counts.assign(static_cast<std::size_t>(leaves), {});
+    for (std::size_t s = 0; s < node_of_.size(); ++s) {
+      const auto leaf = static_cast<std::size_t>(leaf_of[static_cast<std::size_t>(node_of_[s])]);
+      const auto facing = static_cast<std::size_t>(samples_.facing[samples_.image[s]]);
+      ++tree_.leaf_counts[leaf][facing][samples_.samples[s].part_index];
     }
   }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "libtracker/classify/decide_facing.h"
 #include "libtracker/classify/descend.h"
 #include "libtracker/classify/forest.h"
 #include "libtracker/core/check.h"
@@ -11,10 +12,11 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 256;
 
-using VoteSum = std::array<std::uint16_t, kPartCount>;  // up to 257 trees of 255 each
+using FacingVotes = std::array<std::array<std::uint16_t, kPartCount>, kFacingCount>;  // up to 257 trees of 255 each
 constexpr std::size_t kMaxTrees = 257;
 
 void checkArguments(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px, int stride) {
+  DMC_CHECK(forest.facings == 1 || forest.facings == kFacingCount);
   DMC_CHECK(!forest.trees.empty() && forest.trees.size() <= kMaxTrees);
   DMC_CHECK(depth.width == mask.width && depth.height == mask.height);
   DMC_CHECK(depth.width <= INT16_MAX && depth.height <= INT16_MAX);
@@ -22,18 +24,13 @@ void checkArguments(const Forest& forest, const DepthImage& depth, const MaskIma
   DMC_CHECK(stride >= 1);
 }
 
-void addLeaf(const std::array<std::uint8_t, kPartCount>& leaf, VoteSum& votes) {
-  for (std::size_t part = 0; part < kPartCount; ++part) {
-    votes[part] = static_cast<std::uint16_t>(votes[part] + leaf[part]);
+void addLeaf(const ForestTree& tree, std::size_t leaf, std::size_t facings, FacingVotes& votes) {
+  for (std::size_t facing = 0; facing < facings; ++facing) {
+    const auto& row = tree.leaves[leaf * facings + facing];
+    for (std::size_t part = 0; part < kPartCount; ++part) {
+      votes[facing][part] = static_cast<std::uint16_t>(votes[facing][part] + row[part]);
+    }
   }
-}
-
-void setProbabilities(const VoteSum& votes, ClassifiedPixels::Pixel& pixel) {
-  int total = 0;
-  for (const std::uint16_t vote : votes) total += vote;
-  const float share = 1.0F / static_cast<float>(std::max(total, 1));
-  for (std::size_t part = 0; part < kPartCount; ++part)
-    pixel.probability[part] = static_cast<float>(votes[part]) * share;
 }
 
 int firstOnGrid(int from, int stride) {
@@ -55,8 +52,8 @@ void collectPixels(const DepthImage& depth, const MaskImage& mask, int stride, c
   }
 }
 
-void classifyLanes(const Forest& forest, const ActorDepth& actor, double focal_px, Descend descend,
-                   ClassifiedPixels::Pixel* pixels, std::size_t count) {
+void addVotes(const Forest& forest, const ActorDepth& actor, double focal_px, Descend descend,
+              const ClassifiedPixels::Pixel* pixels, std::size_t count, FacingVotes* votes) {
   PixelLanes lanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const auto& pixel = pixels[lane < count ? lane : 0];
@@ -64,73 +61,92 @@ void classifyLanes(const Forest& forest, const ActorDepth& actor, double focal_p
     lanes.y[lane] = pixel.y - actor.top + 1;
     lanes.scale[lane] = probeScale(focal_px, pixel.depth_m);
   }
-  std::array<VoteSum, kLanes> votes{};
   LeafLanes leaves;
   for (const ForestTree& tree : forest.trees) {
     descend(tree, actor, lanes, leaves);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      addLeaf(tree.leaves[static_cast<std::size_t>(leaves[lane])], votes[lane]);
+      addLeaf(tree, static_cast<std::size_t>(leaves[lane]), static_cast<std::size_t>(forest.facings), votes[lane]);
     }
   }
-  for (std::size_t lane = 0; lane < count; ++lane) setProbabilities(votes[lane], pixels[lane]);
+}
+
+template <typename Body>
+void forEachTask(int threads, std::size_t pixels, Body&& body) {
+  parallelFor(threads, (pixels + kPixelsPerTask - 1) / kPixelsPerTask, [&](std::size_t task) {
+    body(task, task * kPixelsPerTask, std::min(pixels, (task + 1) * kPixelsPerTask));
+  });
+}
+
+// From votes to probabilities; shared by the fast path and the reference.
+void decide(const Forest& forest, const ClassifyConfig& config, ClassifyMemory& memory, ClassifiedPixels& result) {
+  const std::size_t count = result.pixels.size();
+  if (forest.facings == 1) {
+    result.facing.fill(1.0F / kFacingCount);
+  } else {
+    memory.evidence.assign((count + kPixelsPerTask - 1) / kPixelsPerTask, {});
+    forEachTask(config.threads, count, [&](std::size_t task, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) addEvidence(memory.votes[i], memory.evidence[task]);
+    });
+    result.facing = facingProbabilities(memory.evidence, count, config.facing_prior);
+  }
+  forEachTask(config.threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      partProbabilities(memory.votes[i], result.facing, result.pixels[i].probability);
+    }
+  });
 }
 
 }  // namespace
 
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
-              const ClassifyConfig& config, ActorDepth& actor, ClassifiedPixels& result) {
+              const ClassifyConfig& config, ClassifyMemory& memory, ClassifiedPixels& result) {
   checkArguments(forest, depth, mask, focal_px, config.stride);
-  cutOutActor(depth, mask, actor);
-  collectPixels(depth, mask, config.stride, actor, result);
+  cutOutActor(depth, mask, memory.actor);
+  collectPixels(depth, mask, config.stride, memory.actor, result);
+  memory.votes.assign(result.pixels.size(), {});
   const Descend descend = chooseDescend(config.simd);
-  const std::size_t tasks = (result.pixels.size() + kPixelsPerTask - 1) / kPixelsPerTask;
-  parallelFor(config.threads, tasks, [&](std::size_t task) {
-    const std::size_t end = std::min(result.pixels.size(), (task + 1) * kPixelsPerTask);
-    for (std::size_t i = task * kPixelsPerTask; i < end; i += kLanes) {
-      classifyLanes(forest, actor, focal_px, descend, result.pixels.data() + i, std::min<std::size_t>(kLanes, end - i));
+  forEachTask(config.threads, result.pixels.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i += kLanes) {
+      addVotes(forest, memory.actor, focal_px, descend, result.pixels.data() + i,
+               std::min<std::size_t>(kLanes, end - i), memory.votes.data() + i);
     }
   });
+  decide(forest, config, memory, result);
 }
 
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifiedPixels& result) {
-  ActorDepth actor;
-  classify(forest, depth, mask, focal_px, config, actor, result);
+  ClassifyMemory memory;
+  classify(forest, depth, mask, focal_px, config, memory, result);
 }
 
 void classifyReference(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
-                       int stride, ClassifiedPixels& result) {
-  checkArguments(forest, depth, mask, focal_px, stride);
+                       const ClassifyConfig& config, ClassifiedPixels& result) {
+  checkArguments(forest, depth, mask, focal_px, config.stride);
   const auto probe = [&](int x, int y) {
     const bool on_actor = depth.contains(x, y) && mask.at(x, y) != 0 && depth.at(x, y) > 0.0F;
     return on_actor ? depth.at(x, y) : kBackgroundDepth_m;
   };
-  result.stride = stride;
-  result.pixels.clear();
-  for (int y = 0; y < depth.height; y += stride) {
-    for (int x = 0; x < depth.width; x += stride) {
-      if (mask.at(x, y) == 0 || !(depth.at(x, y) > 0.0F)) continue;
-      const float scale = probeScale(focal_px, depth.at(x, y));
-      const auto at_offset = [&](const std::array<std::int16_t, 2>& offset) {
-        return probe(x + wholePixels(static_cast<float>(offset[0]) * scale),
-                     y + wholePixels(static_cast<float>(offset[1]) * scale));
-      };
-      VoteSum votes{};
-      for (const ForestTree& tree : forest.trees) {
-        const ForestNode* node = tree.nodes.data();
-        while (node->child > 0) {
-          const bool left = at_offset(node->u) - at_offset(node->v) < node->threshold_m;
-          node = &tree.nodes[static_cast<std::size_t>(node->child) + (left ? 0 : 1)];
-        }
-        addLeaf(tree.leaves[static_cast<std::size_t>(-node->child)], votes);
+  const ActorDepth whole{0, 0, depth.width, depth.height, {}};
+  collectPixels(depth, mask, config.stride, whole, result);
+  ClassifyMemory memory;
+  for (const auto& pixel : result.pixels) {
+    const float scale = probeScale(focal_px, pixel.depth_m);
+    const auto at_offset = [&](const std::array<std::int16_t, 2>& offset) {
+      return probe(pixel.x + wholePixels(static_cast<float>(offset[0]) * scale),
+                   pixel.y + wholePixels(static_cast<float>(offset[1]) * scale));
+    };
+    auto& votes = memory.votes.emplace_back();
+    for (const ForestTree& tree : forest.trees) {
+      const ForestNode* node = tree.nodes.data();
+      while (node->child > 0) {
+        const bool left = at_offset(node->u) - at_offset(node->v) < node->threshold_m;
+        node = &tree.nodes[static_cast<std::size_t>(node->child) + (left ? 0 : 1)];
       }
-      auto& pixel = result.pixels.emplace_back();
-      pixel.x = static_cast<std::int16_t>(x);
-      pixel.y = static_cast<std::int16_t>(y);
-      pixel.depth_m = depth.at(x, y);
-      setProbabilities(votes, pixel);
+      addLeaf(tree, static_cast<std::size_t>(-node->child), static_cast<std::size_t>(forest.facings), votes);
     }
   }
+  decide(forest, config, memory, result);
 }
 
 }  // namespace depthmocap

@@ -8,8 +8,17 @@
 namespace depthmocap {
 namespace {
 
-void checkTree(const ForestTree& tree) {
-  DMC_CHECK(!tree.nodes.empty());
+int leafTotal(const ForestTree& tree, std::size_t leaf, std::size_t facings) {
+  int total = 0;
+  for (std::size_t row = leaf * facings; row < (leaf + 1) * facings; ++row) {
+    total = std::accumulate(tree.leaves[row].begin(), tree.leaves[row].end(), total);
+  }
+  return total;
+}
+
+void checkTree(const ForestTree& tree, std::size_t facings) {
+  DMC_CHECK(!tree.nodes.empty() && tree.leaves.size() % facings == 0);
+  const std::size_t leaf_count = tree.leaves.size() / facings;
   std::vector<bool> reached(tree.nodes.size(), false);
   reached[0] = true;
   std::size_t reached_count = 1;
@@ -18,7 +27,7 @@ void checkTree(const ForestTree& tree) {
     const ForestNode& node = tree.nodes[open.back()];
     open.pop_back();
     if (node.child <= 0) {
-      DMC_CHECK(static_cast<std::size_t>(-static_cast<std::int64_t>(node.child)) < tree.leaves.size());
+      DMC_CHECK(static_cast<std::size_t>(-static_cast<std::int64_t>(node.child)) < leaf_count);
       continue;
     }
     const auto left = static_cast<std::size_t>(node.child);
@@ -28,14 +37,15 @@ void checkTree(const ForestTree& tree) {
     open.insert(open.end(), {left, left + 1});
   }
   DMC_CHECK(reached_count == tree.nodes.size());
-  for (const auto& leaf : tree.leaves) DMC_CHECK(std::accumulate(leaf.begin(), leaf.end(), 0) > 0);
+  for (std::size_t leaf = 0; leaf < leaf_count; ++leaf) DMC_CHECK(leafTotal(tree, leaf, facings) > 0);
 }
 
 }  // namespace
 
 void checkForest(const Forest& forest) {
   DMC_CHECK(!forest.trees.empty());
-  for (const ForestTree& tree : forest.trees) checkTree(tree);
+  DMC_CHECK(forest.facings == 1 || forest.facings == kFacingCount);
+  for (const ForestTree& tree : forest.trees) checkTree(tree, static_cast<std::size_t>(forest.facings));
 }
 
 int treeDepth(const ForestTree& tree) {

@@ -27,17 +27,20 @@ struct ForestNode {
 };
 
 struct ForestTree {
-  std::vector<ForestNode> nodes;                             // nodes[0] is the root
-  std::vector<std::array<std::uint8_t, kPartCount>> leaves;  // distribution * 255
+  std::vector<ForestNode> nodes;  // nodes[0] is the root
+  // Each leaf has as many rows as the forest has facings: leaf i begins at leaves[i * facings]. Its rows together are
+  // the distribution * 255 of part and facing, as if every facing were equally frequent.
+  std::vector<std::array<std::uint8_t, kPartCount>> leaves;
 };
 
 struct Forest {
   std::vector<ForestTree> trees;
-  std::string origin;  // one line: data, command, date
+  std::string origin;  // one line: data
+  int facings = 1;     // kFacingCount, or 1: leaves do not tell the facings apart
 };
 
-// Throws std::logic_error where the forest is not one: no tree, an index out of range, a node that is not reached
-// exactly once from its root (so no cycle), a leaf without any probability.
+// Throws std::logic_error where the forest is not one: no tree, no such number of facings, an index out of range, a
+// node that is not reached exactly once from its root (so no cycle), a leaf without any probability.
 void checkForest(const Forest& forest);
 
 // loadForest throws Error (missing, not a forest, truncated, checksum, version, counts that do not fit together); no
@@ -53,20 +56,33 @@ struct ClassifyConfig {
   int stride = 2;    // [px] (>= 1) classify every stride-th pixel in x and y
   int threads = 1;   // (>= 1)
   bool simd = true;  // use the processor's vector instructions where it has them; the result is the same
+  FacingShares facing_prior = {1, 1, 1, 1};  // (>= 0, not all 0) what is known of the facing before, at any scale
+};
+
+// Working memory of classify(), for reuse.
+struct ClassifyMemory {
+  ActorDepth actor;
+  // What the trees say of each pixel: the sum of its leaves.
+  std::vector<std::array<std::array<std::uint16_t, kPartCount>, kFacingCount>> votes;
+  std::vector<std::array<double, kFacingCount>> evidence;  // of some pixels each
 };
 
 // Classifies the pixels of the actor (mask != 0, with a measurement). `depth` and `mask` have the same size, `focal_px`
-// is the camera's fx (1 .. 1e5). The same result for any number of threads. `actor` is working memory; with `result` it
-// is reused: no allocation once they have seen the largest actor.
+// is the camera's fx (1 .. 1e5). The same result for any number of threads. No allocation once `memory` and `result`
+// have seen the largest actor.
+//
+// Beyond Shotton 2011: front and back of a person look much alike, and what is left from the front is right from
+// behind. A pixel alone cannot decide that, but all pixels together can: leaves keep the joint distribution of part and
+// facing, the image decides the facing, and each pixel's parts are taken from the distribution that fits.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
-              const ClassifyConfig& config, ActorDepth& actor, ClassifiedPixels& result);
+              const ClassifyConfig& config, ClassifyMemory& memory, ClassifiedPixels& result);
 // The same for a single image.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifiedPixels& result);
 
-// The definition that classify() is tested against: the same result pixel by pixel from the plain images, slowly.
+// The definition that classify() is tested against: the same result from the plain images, pixel by pixel, slowly.
 void classifyReference(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
-                       int stride, ClassifiedPixels& result);
+                       const ClassifyConfig& config, ClassifiedPixels& result);
 
 // The most probable part (index 0 .. 14, the first of equals) of a classified pixel.
 int mostProbablePart(const ClassifiedPixels::Pixel& pixel);

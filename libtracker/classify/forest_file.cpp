@@ -1,13 +1,13 @@
 // The forest file, little-endian:
 //
-//   "DMCFORST"  u32 version  u32 trees  u32 origin bytes  u64 packed bytes  u32 CRC-32 of all that follows
+//   "DMCFORST"  u32 version  u32 trees  u32 facings  u32 origin bytes  u64 packed bytes  u32 CRC-32 of all that follows
 //   origin (UTF-8), u32 nodes of each tree, then one zlib stream.
 //
 // The stream holds for each tree, nodes in breadth-first order, column by column, so that equal columns pack well: a
 // bit per node, 1 = split; of the splits u.x, u.y, v.x, v.y [px * m] and the threshold [mm], all i16, first every low
-// byte, then every high byte; of the leaves the 15 probabilities * 255, part by part. Breadth-first order makes child
-// indices superfluous: the children of the k-th split are nodes 2 k + 1 and 2 k + 2, and the k-th leaf has distribution
-// k.
+// byte, then every high byte; of the leaves the 15 probabilities * 255 of each facing, part by part. Breadth-first
+// order makes child indices superfluous: the children of the k-th split are nodes 2 k + 1 and 2 k + 2, and the k-th
+// leaf has distribution k.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -28,12 +28,12 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the file is copied byte by byte");
 
 constexpr std::array<char, 8> kMagic = {'D', 'M', 'C', 'F', 'O', 'R', 'S', 'T'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;           // written
+constexpr std::uint32_t kVersionOneFacing = 1;  // read too: without the number of facings, which is 1
 constexpr std::uint32_t kMaxTrees = 64;
 constexpr std::uint32_t kMaxNodes = 1U << 23U;
 constexpr std::uint32_t kMaxOriginBytes = 4096;
 constexpr std::size_t kMaxPacking = 1032;  // zlib's best ratio
-constexpr std::size_t kHeaderBytes = 8 + 4 + 4 + 4 + 8 + 4;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -68,7 +68,7 @@ std::int16_t thresholdMillimetres(float threshold_m) {
   return static_cast<std::int16_t>(std::lround(std::fmin(std::fmax(threshold_m * 1000.0F, -32768.0F), 32767.0F)));
 }
 
-void putTree(Bytes& bytes, const ForestTree& tree) {
+void putTree(Bytes& bytes, const ForestTree& tree, std::size_t facings) {
   const std::vector<std::int32_t> order = breadthFirstOrder(tree);
   const auto node = [&](std::int32_t i) -> const ForestNode& { return tree.nodes[static_cast<std::size_t>(i)]; };
   const std::size_t bits = bytes.size();
@@ -86,8 +86,10 @@ void putTree(Bytes& bytes, const ForestTree& tree) {
     for (std::size_t c = 0; c < row.size(); ++c) columns[c].push_back(row[c]);
   }
   for (const auto& column : columns) putColumn(bytes, column);
-  for (std::size_t part = 0; part < kPartCount; ++part) {
-    for (const std::size_t leaf : leaves) bytes.push_back(tree.leaves[leaf][part]);
+  for (std::size_t column = 0; column < facings * kPartCount; ++column) {
+    for (const std::size_t leaf : leaves) {
+      bytes.push_back(tree.leaves[leaf * facings + column / kPartCount][column % kPartCount]);
+    }
   }
 }
 
@@ -104,13 +106,14 @@ Bytes encode(const Forest& forest) {
   Bytes raw;
   for (const ForestTree& tree : forest.trees) {
     put(body, static_cast<std::uint32_t>(tree.nodes.size()));
-    putTree(raw, tree);
+    putTree(raw, tree, static_cast<std::size_t>(forest.facings));
   }
   const Bytes stream = packed(raw);
   body.insert(body.end(), stream.begin(), stream.end());
   Bytes file(kMagic.begin(), kMagic.end());
   put(file, kVersion);
   put(file, static_cast<std::uint32_t>(forest.trees.size()));
+  put(file, static_cast<std::uint32_t>(forest.facings));
   put(file, static_cast<std::uint32_t>(forest.origin.size()));
   put(file, static_cast<std::uint64_t>(stream.size()));
   put(file, checksum(body.data(), body.size()));
@@ -147,9 +150,9 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-std::size_t rawBytes(std::size_t nodes) {
+std::size_t rawBytes(std::size_t nodes, std::size_t facings) {
   const std::size_t splits = nodes / 2;
-  return (nodes + 7) / 8 + splits * 5 * 2 + (splits + 1) * kPartCount;
+  return (nodes + 7) / 8 + splits * 5 * 2 + (splits + 1) * facings * kPartCount;
 }
 
 std::vector<std::int16_t> getColumn(Reader& reader, std::size_t count) {
@@ -160,7 +163,22 @@ std::vector<std::int16_t> getColumn(Reader& reader, std::size_t count) {
   return column;
 }
 
-ForestTree getTree(Reader& reader, std::size_t node_count) {
+void getLeaves(Reader& reader, std::size_t count, std::size_t facings, ForestTree& tree) {
+  tree.leaves.resize(count * facings);
+  std::vector<bool> has_probability(count, false);
+  for (std::size_t column = 0; column < facings * kPartCount; ++column) {
+    const std::uint8_t* values = reader.take(count);
+    for (std::size_t leaf = 0; leaf < count; ++leaf) {
+      tree.leaves[leaf * facings + column / kPartCount][column % kPartCount] = values[leaf];
+      if (values[leaf] != 0) has_probability[leaf] = true;
+    }
+  }
+  if (std::find(has_probability.begin(), has_probability.end(), false) != has_probability.end()) {
+    reader.fail("the forest file is damaged: a leaf without probability");
+  }
+}
+
+ForestTree getTree(Reader& reader, std::size_t node_count, std::size_t facings) {
   ForestTree tree;
   tree.nodes.resize(node_count);
   const std::size_t split_count = node_count / 2;
@@ -183,15 +201,7 @@ ForestTree getTree(Reader& reader, std::size_t node_count) {
     ++splits;
   }
   if (splits != split_count) reader.fail("the forest file is damaged: too few splits");
-  tree.leaves.resize(split_count + 1);
-  for (std::size_t part = 0; part < kPartCount; ++part) {
-    const std::uint8_t* column = reader.take(tree.leaves.size());
-    for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf) tree.leaves[leaf][part] = column[leaf];
-  }
-  for (const auto& leaf : tree.leaves) {
-    if (std::all_of(leaf.begin(), leaf.end(), [](std::uint8_t p) { return p == 0; }))
-      reader.fail("the forest file is damaged: a leaf without probability");
-  }
+  getLeaves(reader, split_count + 1, facings, tree);
   return tree;
 }
 
@@ -206,37 +216,41 @@ Bytes unpacked(Reader& reader, std::size_t packed_bytes, std::size_t raw_bytes) 
 
 Forest decode(const Bytes& file, const std::string& where) {
   Reader reader(file, where);
-  if (file.size() < kHeaderBytes || std::memcmp(file.data(), kMagic.data(), kMagic.size()) != 0) {
+  if (file.size() < kMagic.size() || std::memcmp(file.data(), kMagic.data(), kMagic.size()) != 0) {
     throw Error("this is not a forest file", where, "name a file made by depthmocap forest train");
   }
   reader.take(kMagic.size());
-  if (const auto version = reader.get<std::uint32_t>(); version != kVersion) {
+  const auto version = reader.get<std::uint32_t>();
+  if (version != kVersion && version != kVersionOneFacing) {
     throw Error(
-        "forest file of version " + std::to_string(version) + ", this program reads " + std::to_string(kVersion), where,
-        "use the program that made it or train a new forest");
+        "forest file of version " + std::to_string(version) + ", this program reads up to " + std::to_string(kVersion),
+        where, "use the program that made it or train a new forest");
   }
   const auto tree_count = reader.get<std::uint32_t>();
+  const auto facings = version == kVersionOneFacing ? 1U : reader.get<std::uint32_t>();
   const auto origin_bytes = reader.get<std::uint32_t>();
   const auto packed_bytes = reader.get<std::uint64_t>();
   const auto expected = reader.get<std::uint32_t>();
-  const std::size_t body = reader.left();
-  if (checksum(file.data() + kHeaderBytes, body) != expected)
+  if (checksum(file.data() + (file.size() - reader.left()), reader.left()) != expected) {
     reader.fail("the forest file is damaged or truncated: wrong checksum");
+  }
   if (tree_count == 0 || tree_count > kMaxTrees) reader.fail("the forest file is damaged: impossible number of trees");
+  if (facings != 1 && facings != kFacingCount) reader.fail("the forest file is damaged: impossible number of facings");
   if (origin_bytes > kMaxOriginBytes) reader.fail("the forest file is damaged: impossible origin");
   Forest forest;
+  forest.facings = static_cast<int>(facings);
   forest.origin.assign(reinterpret_cast<const char*>(reader.take(origin_bytes)), origin_bytes);
   std::vector<std::size_t> node_counts(tree_count);
   std::size_t raw_bytes = 0;
   for (std::size_t& count : node_counts) {
     count = reader.get<std::uint32_t>();
     if (count > kMaxNodes || count % 2 == 0) reader.fail("the forest file is damaged: impossible number of nodes");
-    raw_bytes += rawBytes(count);
+    raw_bytes += rawBytes(count, facings);
   }
   if (packed_bytes != reader.left()) reader.fail("the forest file is truncated or has bytes too many");
   const Bytes raw = unpacked(reader, packed_bytes, raw_bytes);
   Reader trees(raw, where);
-  for (const std::size_t count : node_counts) forest.trees.push_back(getTree(trees, count));
+  for (const std::size_t count : node_counts) forest.trees.push_back(getTree(trees, count, facings));
   return forest;
 }
 

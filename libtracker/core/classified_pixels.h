@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libtracker/core/facing.h"
 #include "libtracker/core/parts.h"
 
 namespace depthmocap {
@@ -17,6 +18,8 @@ struct ClassifiedPixels {
   };
   int stride = 1;  // [px] every stride-th pixel in x and y was classified
   std::vector<Pixel> pixels;
+  // Probability of each side being the one that is seen; all equal where the classifier does not know.
+  FacingShares facing = {0.25F, 0.25F, 0.25F, 0.25F};
 };
 
 }  // namespace depthmocap

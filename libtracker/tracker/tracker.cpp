@@ -79,7 +79,7 @@ struct Tracker::Stages {
   MarkerSet predicted_camera;
   Eigen::Vector3d predicted_centroid_camera = Eigen::Vector3d::Zero();
   Segmentation segmentation;
-  ActorDepth actor_depth;
+  ClassifyMemory classify_memory;
   ClassifiedPixels pixels;
   MarkerSet markers_world;
   std::vector<PoseNeighbour> neighbours;
@@ -222,7 +222,7 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame) {
   clock.lap(&StageTimes::segment);
 
   // (1) a body part for each pixel
-  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.config.classify, s.actor_depth, s.pixels);
+  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.config.classify, s.classify_memory, s.pixels);
   labelImage(s.pixels, s.segmentation.mask, s.out.labels);
   clock.lap(&StageTimes::classify);
 

@@ -14,6 +14,7 @@ constexpr double kFocal_px = 525.0;
 void expectEqual(const ClassifiedPixels& a, const ClassifiedPixels& b) {
   ASSERT_EQ(a.pixels.size(), b.pixels.size());
   EXPECT_EQ(a.stride, b.stride);
+  EXPECT_EQ(a.facing, b.facing);
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     ASSERT_EQ(a.pixels[i].x, b.pixels[i].x);
     ASSERT_EQ(a.pixels[i].y, b.pixels[i].y);
@@ -42,7 +43,7 @@ TEST(Classify, ProbeOutsideTheActorReadsBackground) {
   for (const auto& pixel : result.pixels) {
     const bool on_actor = pixel.x + 2 < 10;
     EXPECT_EQ(mostProbablePart(pixel), on_actor ? 0 : 1) << pixel.x;
-    EXPECT_EQ(pixel.probability[on_actor ? 0 : 1], 1.0F);
+    EXPECT_FLOAT_EQ(pixel.probability[on_actor ? 0 : 1], 1.0F);
   }
 }
 
@@ -67,11 +68,11 @@ TEST(Classify, AveragesTheTrees) {
 }
 
 TEST(Classify, EqualsTheReferenceExactly) {
-  const Forest forest = test::randomForest(3, 3000, 7);
   for (const int stride : {1, 2, 3}) {
+    const Forest forest = test::randomForest(3, 3000, 7, stride == 1 ? 1 : kFacingCount);
     const test::Scene scene = test::standingFigure(161, 123, static_cast<std::uint64_t>(stride));
     ClassifiedPixels reference, simd, portable;
-    classifyReference(forest, scene.depth, scene.mask, 140.0, stride, reference);
+    classifyReference(forest, scene.depth, scene.mask, 140.0, {.stride = stride}, reference);
     ASSERT_GT(reference.pixels.size(), 100U);
     classify(forest, scene.depth, scene.mask, 140.0, {.stride = stride, .threads = 2}, simd);
     classify(forest, scene.depth, scene.mask, 140.0, {.stride = stride, .simd = false}, portable);
@@ -82,7 +83,7 @@ TEST(Classify, EqualsTheReferenceExactly) {
 
 TEST(Classify, EqualsTheReferenceAtExtremes) {
   Random random(5);
-  Forest forest = test::randomForest(2, 200, 3);
+  Forest forest = test::randomForest(2, 200, 3, kFacingCount);
   for (ForestNode& node : forest.trees[0].nodes) {
     node.u = {INT16_MAX, INT16_MIN};
     node.v = {static_cast<std::int16_t>(random.next()), static_cast<std::int16_t>(random.next())};
@@ -92,7 +93,7 @@ TEST(Classify, EqualsTheReferenceAtExtremes) {
   for (float& d : depth.data) d = static_cast<float>(std::pow(10.0, random.uniform(-6, 2)));
   for (const double focal_px : {1.0, 525.0, 1e5}) {
     ClassifiedPixels reference, simd, portable;
-    classifyReference(forest, depth, mask, focal_px, 1, reference);
+    classifyReference(forest, depth, mask, focal_px, {.stride = 1}, reference);
     classify(forest, depth, mask, focal_px, {.stride = 1}, simd);
     classify(forest, depth, mask, focal_px, {.stride = 1, .simd = false}, portable);
     expectEqual(reference, simd);
@@ -101,19 +102,56 @@ TEST(Classify, EqualsTheReferenceAtExtremes) {
 }
 
 TEST(Classify, ProbabilitiesSumToOneAndMemoryIsReused) {
-  const Forest forest = test::randomForest(3, 500, 11);
+  const Forest forest = test::randomForest(3, 500, 11, kFacingCount);
   const test::Scene scene = test::standingFigure(320, 240, 1);
   ClassifiedPixels result;
-  ActorDepth actor;
-  classify(forest, scene.depth, scene.mask, 260.0, {}, actor, result);
-  const auto* memory = result.pixels.data();
-  const auto* cut_out = actor.depth_m.data();
-  classify(forest, scene.depth, scene.mask, 260.0, {}, actor, result);
-  EXPECT_EQ(result.pixels.data(), memory);
-  EXPECT_EQ(actor.depth_m.data(), cut_out);
+  ClassifyMemory memory;
+  classify(forest, scene.depth, scene.mask, 260.0, {}, memory, result);
+  const auto* pixels = result.pixels.data();
+  const auto* cut_out = memory.actor.depth_m.data();
+  const auto* votes = memory.votes.data();
+  classify(forest, scene.depth, scene.mask, 260.0, {}, memory, result);
+  EXPECT_EQ(result.pixels.data(), pixels);
+  EXPECT_EQ(memory.actor.depth_m.data(), cut_out);
+  EXPECT_EQ(memory.votes.data(), votes);
   for (const auto& pixel : result.pixels) {
     EXPECT_NEAR(std::accumulate(pixel.probability.begin(), pixel.probability.end(), 0.0), 1.0, 1e-5);
   }
+}
+
+// One leaf in each half of the image: the left half knows the facing, the right half only what each facing would make
+// it.
+Forest facingForest() {
+  ForestTree tree;
+  tree.nodes = {ForestNode{{0, 0}, {0, 0}, 0.0F, 1}, ForestNode{{}, {}, 0, 0}, ForestNode{{}, {}, 0, -1}};
+  tree.nodes[0] = {{20, 0}, {0, 0}, 1.0F, 1};  // right of the pixel is background: right leaf
+  tree.leaves.resize(2 * kFacingCount);
+  tree.leaves[0][0] = 40;                                                       // front: head
+  tree.leaves[static_cast<std::size_t>(Facing::Back)][0] = 215;                 // back: head
+  tree.leaves[kFacingCount][2] = 128;                                           // front: left shoulder
+  tree.leaves[kFacingCount + static_cast<std::size_t>(Facing::Back)][3] = 127;  // back: right shoulder
+  return Forest{{tree}, "", kFacingCount};
+}
+
+TEST(Classify, TheImageDecidesTheFacingAndTheFacingTheSide) {
+  ClassifiedPixels result;
+  classify(facingForest(), DepthImage(40, 10, 1.0F), MaskImage(40, 10, 1), kFocal_px, {.stride = 1}, result);
+  EXPECT_GT(result.facing[static_cast<std::size_t>(Facing::Back)], 0.99F);
+  int left = 0;
+  for (const auto& pixel : result.pixels) {
+    EXPECT_EQ(mostProbablePart(pixel), pixel.x < 20 ? 0 : 3);
+    left += pixel.x < 20 ? 1 : 0;
+  }
+  EXPECT_EQ(left, 200);
+}
+
+TEST(Classify, WhatIsKnownOfTheFacingOverrulesTheImage) {
+  ClassifiedPixels result;
+  ClassifyConfig config{.stride = 1};
+  config.facing_prior = {1, 0, 0, 0};
+  classify(facingForest(), DepthImage(40, 10, 1.0F), MaskImage(40, 10, 1), kFocal_px, config, result);
+  EXPECT_EQ(result.facing[0], 1.0F);
+  for (const auto& pixel : result.pixels) EXPECT_EQ(mostProbablePart(pixel), pixel.x < 20 ? 0 : 2);
 }
 
 TEST(Classify, NobodyGivesNoPixels) {

@@ -27,11 +27,12 @@ class ForestFile : public ::testing::Test {
 };
 
 TEST_F(ForestFile, RoundTripKeepsEverything) {
-  Forest forest = test::randomForest(3, 400, 1);
+  Forest forest = test::randomForest(3, 400, 1, kFacingCount);
   forest.origin = "made by a test";
   saveForest(forest, path_);
   const Forest loaded = loadForest(path_);
   EXPECT_EQ(loaded.origin, forest.origin);
+  EXPECT_EQ(loaded.facings, kFacingCount);
   ASSERT_EQ(loaded.trees.size(), 3U);
   for (std::size_t t = 0; t < 3; ++t) {
     const auto& a = forest.trees[t].nodes;
@@ -68,6 +69,19 @@ TEST_F(ForestFile, RenumbersAnyOrderOfNodes) {
   EXPECT_EQ(loaded.leaves[static_cast<std::size_t>(-loaded.nodes[1].child)], tree.leaves[2]);
   EXPECT_EQ(loaded.leaves[static_cast<std::size_t>(-loaded.nodes[4].child)], tree.leaves[0]);
   EXPECT_EQ(treeDepth(loaded), 2);
+}
+
+TEST_F(ForestFile, ReadsTheVersionBeforeFacings) {
+  const Forest forest = test::randomForest(2, 50, 6);
+  saveForest(forest, path_);
+  std::string file = bytes();
+  file[8] = 1;
+  file.erase(16, 4);  // the number of facings
+  write(file);
+  const Forest loaded = loadForest(path_);
+  EXPECT_EQ(loaded.facings, 1);
+  ASSERT_EQ(loaded.trees.size(), 2U);
+  EXPECT_EQ(loaded.trees[1].leaves, forest.trees[1].leaves);
 }
 
 TEST_F(ForestFile, SingleLeafIsAForest) {
@@ -122,7 +136,7 @@ std::uint32_t crc32Of(const std::string& text) {
 
 // Damage behind a checksum that is right: the counts themselves must be distrusted.
 TEST_F(ForestFile, ForgedCountsWithARightChecksumAreErrors) {
-  constexpr std::size_t kHeader = 32;
+  constexpr std::size_t kHeader = 36;
   saveForest(test::randomForest(1, 20, 3), path_);
   const std::string whole = bytes();
   const std::size_t counts = kHeader + std::string("random").size();
@@ -140,9 +154,11 @@ TEST_F(ForestFile, ForgedCountsWithARightChecksumAreErrors) {
     EXPECT_THROW(loadForest(path_), Error) << "nodes " << value;
     write(forged(12, value == 1U ? 2U : value));
     EXPECT_THROW(loadForest(path_), Error) << "trees " << value;
-    write(forged(16, value));
-    EXPECT_THROW(loadForest(path_), Error) << "origin " << value;
+    write(forged(16, value == 1U ? 4U : value));
+    EXPECT_THROW(loadForest(path_), Error) << "facings " << value;
     write(forged(20, value));
+    EXPECT_THROW(loadForest(path_), Error) << "origin " << value;
+    write(forged(24, value));
     EXPECT_THROW(loadForest(path_), Error) << "packed " << value;
   }
 }
@@ -160,6 +176,9 @@ TEST(CheckForest, RefusesCyclesOrphansAndBadIndices) {
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.nodes.emplace_back(); })), std::logic_error);
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.leaves.pop_back(); })), std::logic_error);
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.leaves[0] = {}; })), std::logic_error);
+  Forest facings = good;
+  facings.facings = 3;
+  EXPECT_THROW(checkForest(facings), std::logic_error);
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.nodes[0].child = 1 << 20; })), std::logic_error);
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.nodes[1].child = 1; })), std::logic_error);
 }

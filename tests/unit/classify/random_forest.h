@@ -8,7 +8,7 @@
 namespace depthmocap::test {
 
 // A tree of random splits with about `splits` of them, breadth-first, every leaf with some probability.
-inline ForestTree randomTree(std::size_t splits, Random& random) {
+inline ForestTree randomTree(std::size_t splits, int facings, Random& random) {
   ForestTree tree;
   tree.nodes.resize(1);
   std::size_t done = 0;
@@ -23,20 +23,23 @@ inline ForestTree randomTree(std::size_t splits, Random& random) {
       tree.nodes.resize(tree.nodes.size() + 2);
       ++done;
     } else {
-      tree.nodes[i].child = -static_cast<std::int32_t>(tree.leaves.size());
-      auto& leaf = tree.leaves.emplace_back();
-      for (auto& p : leaf) p = static_cast<std::uint8_t>(random.below(256));
-      leaf[random.below(kPartCount)] = 255;
+      tree.nodes[i].child = -static_cast<std::int32_t>(tree.leaves.size() / static_cast<std::size_t>(facings));
+      for (int facing = 0; facing < facings; ++facing) {
+        auto& leaf = tree.leaves.emplace_back();
+        for (auto& p : leaf) p = static_cast<std::uint8_t>(random.below(256 / static_cast<std::uint32_t>(facings)));
+      }
+      tree.leaves.back()[random.below(kPartCount)] = 255;
     }
   }
   return tree;
 }
 
-inline Forest randomForest(std::size_t trees, std::size_t splits, std::uint64_t seed) {
+inline Forest randomForest(std::size_t trees, std::size_t splits, std::uint64_t seed, int facings = 1) {
   Random random(seed);
   Forest forest;
   forest.origin = "random";
-  for (std::size_t t = 0; t < trees; ++t) forest.trees.push_back(randomTree(splits, random));
+  forest.facings = facings;
+  for (std::size_t t = 0; t < trees; ++t) forest.trees.push_back(randomTree(splits, facings, random));
   return forest;
 }
 

@@ -37,6 +37,7 @@ class DiscFigures : public TrainingImageSource {
                                                       {-0.14, 0.65, 0.1}}};
     Random random(seed_, i);
     image.focal_px = 130;
+    image.facing = static_cast<Facing>(i % kFacingCount);
     image.depth.reset(160, 120, 0);
     image.labels.reset(160, 120, 0);
     const double distance = random.uniform(2, 4);

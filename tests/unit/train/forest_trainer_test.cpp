@@ -49,7 +49,7 @@ void expectEqual(const std::vector<TrainedTree>& a, const std::vector<TrainedTre
 }
 
 TEST(ForestTrainer, LearnsFiguresItHasNotSeen) {
-  const Forest forest = finishedForest(train(smallOptions(), 400), 2, 99, 31, "test");
+  const Forest forest = finishedForest(train(smallOptions(), 400), {}, "test");
   EXPECT_NO_THROW(checkForest(forest));
   test::DiscFigures unseen(20, 999);
   const ConfusionMatrix confusion = measureAccuracy({&forest, 1}, unseen, 2, 2, [](double) {})[0];
@@ -97,7 +97,7 @@ TEST(ForestTrainer, CountsOfChildrenAddUpAndSidesHaveTheirMinimum) {
 TEST(ForestTrainer, RespectsDepthAndNodeLimits) {
   ForestTrainingOptions options = smallOptions();
   options.tree.depth = 4;
-  for (const ForestTree& tree : finishedForest(train(options), 2, 99, 255, "").trees) EXPECT_EQ(treeDepth(tree), 4);
+  for (const ForestTree& tree : finishedForest(train(options), {}, "").trees) EXPECT_EQ(treeDepth(tree), 4);
   options.tree.depth = 12;
   options.tree.max_nodes = 21;
   for (const TrainedTree& tree : train(options)) EXPECT_EQ(tree.nodes.size(), 21U);
@@ -105,10 +105,50 @@ TEST(ForestTrainer, RespectsDepthAndNodeLimits) {
 
 TEST(ForestTrainer, CutForestIsShallower) {
   const auto trained = train(smallOptions());
-  const Forest cut = finishedForest(trained, 1, 3, 31, "");
+  const Forest cut = finishedForest(trained, {.trees = 1, .depth = 3}, "");
   ASSERT_EQ(cut.trees.size(), 1U);
   EXPECT_EQ(treeDepth(cut.trees[0]), 3);
   EXPECT_NO_THROW(checkForest(cut));
+}
+
+TEST(ForestTrainer, LeavesHoldWhatFellIntoThemByFacing) {
+  ForestTrainingOptions options = smallOptions();
+  options.tree.depth = 5;
+  for (const TrainedTree& tree : train(options)) {
+    std::size_t leaf = 0;
+    std::array<std::uint64_t, kFacingCount> seen{};
+    for (const auto& node : tree.nodes) {
+      if (node.split.child > 0) continue;
+      PartCounts sum{};
+      for (std::size_t f = 0; f < kFacingCount; ++f) {
+        for (std::size_t part = 0; part < kPartCount; ++part) {
+          sum[part] += tree.leaf_counts[leaf][f][part];
+          seen[f] += tree.leaf_counts[leaf][f][part];
+        }
+      }
+      ASSERT_EQ(sum, node.counts);
+      ++leaf;
+    }
+    EXPECT_EQ(leaf, tree.leaf_counts.size());
+    for (const auto n : seen) EXPECT_GT(n, 0U);
+  }
+}
+
+// Two facings, the second seen three times as often: as if they were equally frequent.
+TEST(FinishedTree, FacingsAreMadeEquallyFrequent) {
+  TrainedTree tree;
+  tree.nodes.resize(1);
+  tree.leaf_counts.resize(1);
+  tree.leaf_counts[0][0][3] = 100;
+  tree.leaf_counts[0][2][5] = 300;
+  const ForestTree finished = finishedTree(tree, 9, kFacingCount, 255);
+  ASSERT_EQ(finished.leaves.size(), 4U);
+  EXPECT_NEAR(finished.leaves[0][3], 127.5, 1);
+  EXPECT_NEAR(finished.leaves[2][5], 127.5, 1);
+  const ForestTree plain = finishedTree(tree, 9, 1, 255);
+  ASSERT_EQ(plain.leaves.size(), 1U);
+  EXPECT_NEAR(plain.leaves[0][3], 64, 1);
+  EXPECT_NEAR(plain.leaves[0][5], 191, 1);
 }
 
 class ForestCheckpoint : public ::testing::Test {

@@ -75,7 +75,7 @@ TEST(ImageCrop, ProbesOfAPixelTogetherEqualThoseOneByOne) {
 }
 
 TEST(ImageCrop, EmptyImageHasNoSamples) {
-  TrainingImage image{DepthImage(20, 10, 0), PartImage(20, 10, 0), 100};
+  TrainingImage image{DepthImage(20, 10, 0), PartImage(20, 10, 0), 100, {}};
   ImageCrop crop;
   cropTrainingImage(image, crop);
   EXPECT_EQ(crop.width, 0);

@@ -1,5 +1,7 @@
 #include "forest/train/rendered_image_source.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "libtracker/core/error.h"
@@ -32,8 +34,58 @@ TEST(RenderedImageSource, ImagesDependOnTheirNumberAloneWhateverTheThreads) {
     }
     EXPECT_GT(labelled, 500U);
     EXPECT_GT(first[i].focal_px, 100);
+    EXPECT_EQ(first[i].facing, Facing::Front);
   }
   EXPECT_NE(first[0].depth.data, first[1].depth.data);
+}
+
+// With the left arm stretched out: seen from the front it lies to the right of the trunk in the image.
+TEST(RenderedImageSource, FacingSaysFromWhereTheActorIsSeen) {
+  const auto bodies = std::make_shared<const std::vector<BodySurface>>(makeBodyPool({1, "", 3}, 1));
+  auto poses = std::make_shared<PosePool>();
+  poses->poses.push_back(PosePool::StoredPose::Zero());
+  RenderedImageOptions options;
+  options.count = 40;
+  options.variation = {0, 0};
+  options.view.facing_share = 0;
+  options.view.cut_share = 0;
+  options.view.min_distance_m = 3;
+  RenderedImageSource source(bodies, poses, options);
+  std::array<int, kFacingCount> seen{};
+  for (std::size_t i = 0; i < options.count; ++i) {
+    TrainingImage image;
+    source.render(i, image);
+    double left = 0, right = 0, left_count = 0, right_count = 0;
+    for (int y = 0; y < image.labels.height; ++y) {
+      for (int x = 0; x < image.labels.width; ++x) {
+        const auto part = static_cast<Part>(image.labels.at(x, y));
+        if (part == Part::LeftLowerArm) {
+          left += x;
+          ++left_count;
+        }
+        if (part == Part::RightLowerArm) {
+          right += x;
+          ++right_count;
+        }
+      }
+    }
+    ASSERT_TRUE(image.facing);
+    ++seen[static_cast<std::size_t>(*image.facing)];
+    if (*image.facing == Facing::Left) {
+      EXPECT_GT(left_count, right_count);
+    }
+    if (*image.facing == Facing::Right) {
+      EXPECT_GT(right_count, left_count);
+    }
+    if (left_count == 0 || right_count == 0) continue;
+    if (*image.facing == Facing::Front) {
+      EXPECT_GT(left / left_count, right / right_count);
+    }
+    if (*image.facing == Facing::Back) {
+      EXPECT_LT(left / left_count, right / right_count);
+    }
+  }
+  for (const int n : seen) EXPECT_GT(n, 2);
 }
 
 TEST(RenderedImageSource, NoPosesAreAnError) {
