@@ -16,10 +16,10 @@ using ProbeOffset = std::array<std::int16_t, 2>;
 
 // What features are drawn from.
 struct FeatureOptions {
-  int offsets = 256;          // (>= 2) probes of one level; features are pairs of them
-  double min_offset = 2.0;    // [px * m] (> 0)
+  int offsets = 256;           // (>= 2) probes of one level; features are pairs of them
+  double min_offset = 2.0;     // [px * m] (> 0)
   double max_offset = 1000.0;  // [px * m] (> min_offset, < 32767)
-  double center_share = 0.4;  // [0, 1] share of features with one probe on the pixel itself
+  double center_share = 0.4;   // [0, 1] share of features with one probe on the pixel itself
 };
 
 // Offsets of one level: the first is the pixel itself, the others have a random direction and a log-uniform length.

@@ -222,7 +222,8 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame) {
   clock.lap(&StageTimes::segment);
 
   // (1) a body part for each pixel
-  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.config.classify, s.classify_memory, s.pixels);
+  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.config.classify, s.classify_memory,
+           s.pixels);
   labelImage(s.pixels, s.segmentation.mask, s.out.labels);
   clock.lap(&StageTimes::classify);
 
