@@ -8,11 +8,9 @@
 #include "apps/commands.h"
 #include "apps/progress.h"
 #include "apps/run_stats.h"
-#include "apps/shipped_files.h"
 #include "apps/track_options.h"
 #include "apps/track_outputs.h"
-#include "libtracker/body/builtin_body.h"
-#include "libtracker/body/sample_surface.h"
+#include "apps/tracker_setup.h"
 #include "libtracker/core/error.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/tracker/tracker.h"
@@ -23,9 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSurfacePoints = 1500;  // of the average body, for the tracker's dense term
-constexpr std::uint64_t kSurfaceSeed = 1;
-
 struct ReplayOptions {
   fs::path recording;
   TrackOptions track;
@@ -35,21 +30,6 @@ struct ReplayOptions {
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-std::shared_ptr<const TrackerModels> loadModels(const TrackOptions& options) {
-  const auto models = std::make_shared<TrackerModels>();
-  models->forest = loadForest(options.forest.empty() ? shippedFile("general.forest") : options.forest);
-  models->database = loadPoseDatabase(options.posedb.empty() ? shippedFile("default.posedb") : options.posedb);
-  models->surface = sampleSurface(makeBuiltinBody(BodyShape{}), kSurfacePoints, kSurfaceSeed);
-  return models;
-}
-
-TrackerConfig trackerConfig(const TrackOptions& options) {
-  TrackerConfig config = options.method == "paper" ? paperConfig() : TrackerConfig{};
-  config.threads = options.threads;
-  if (options.assumed_stature_m > 0) config.policy.assumed_stature_m = options.assumed_stature_m;
-  return config;
 }
 
 // A frame that cannot be read is a frame without measurement: the tracker coasts over it or loses the actor, and the
@@ -73,7 +53,7 @@ bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame, RunSta
 void replay(const ReplayOptions& options) {
   const auto start = Clock::now();
   const std::unique_ptr<RecordingReader> reader = openRecording(options.recording);
-  Tracker tracker(loadModels(options.track), reader->info().camera, trackerConfig(options.track));
+  Tracker tracker(loadTrackerModels(options.track), reader->info().camera, trackerConfig(options.track));
   TrackOutputs outputs(options.track, reader->info());
   RunStats stats;
   std::size_t readable = 0;
