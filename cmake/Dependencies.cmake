@@ -13,6 +13,7 @@ find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(flann REQUIRED IMPORTED_TARGET flann)
+pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
 
 # PCL 1.13 has no PCL::PCL target: wrap its components once, as system headers.
 add_library(depthmocap_pcl INTERFACE)

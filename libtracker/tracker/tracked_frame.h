@@ -34,6 +34,7 @@ struct TrackedFrame {
   PartImage labels;                // most probable part a pixel; 0 outside the actor
   double rms_marker_m = 0;         // [m] seen markers against the solved pose
   double stature_m = 0;            // [m] of the skeleton in use
+  BoneLengths lengths;             // [m] the same; an uncalibrated actor's are fitted over the first seconds
   int solver_iterations = 0;
   StageTimes ms;
 };

@@ -187,7 +187,8 @@ double Tracker::Stages::observedScale(const Pose& q) {
 // What the caller sees of the frame.
 void Tracker::Stages::finish() {
   out.state = history.state();
-  out.stature_m = statureOf(size.actor().skeleton.lengths);
+  out.lengths = size.actor().skeleton.lengths;
+  out.stature_m = statureOf(out.lengths);
   out.confidence.setZero();
   if (out.state == TrackState::Lost) return;
   out.q = history.prev();
