@@ -72,6 +72,33 @@ RawMotion intoTPose(Studio& studio) {
   return {studio.play(s, 0.012)};
 }
 
+// What an actor does for a calibration: hold the T-pose, then bend elbows and knees once, which shows where they are.
+RawMotion calibrate(Studio& studio) {
+  const HandTarget forearms_up{0.27, 0.24, 0.05, 0.0};
+  const HandTarget forearms_forward{0.10, -0.27, 0.24, 0.0};
+  KeySequence s(standing(studio.uniform(0.10, 0.14)));
+  s.at(0.0);
+  s.then(0.3);
+  setHands(s.base(0.9), kTPose);
+  for (int i = 0; i < 3; ++i) {
+    KeyPose& key = s.then(0.7);
+    key.pelvis.x = studio.uniform(-0.01, 0.01);
+  }
+  setHands(s.then(0.7), forearms_up);
+  s.then(0.2);
+  setHands(s.base(0.8), forearms_forward);
+  s.then(0.2);
+  for (const Side side : {Side::Left, Side::Right}) {
+    KeyPose& key = s.then(0.7);
+    (side == Side::Left ? key.left_foot : key.right_foot) = {
+        .out = 0.10, .forward = 0.13, .lift = 0.40, .pitch = 0.4, .toe_out = 0.05};
+    s.then(0.15);
+    setHands(s.base(0.6), forearms_forward);
+  }
+  s.base(0.6);
+  return {studio.play(s, 0.012)};
+}
+
 // Weight from leg to leg, hands finding new places.
 RawMotion idle(Studio& studio) {
   static constexpr std::array kRest = {kAtSide,
@@ -140,6 +167,7 @@ constexpr std::array kRecipes = {
     Recipe{"hands_behind_head", 2, &handsBehindHead},
     Recipe{"hands_up_bent", 2, &handsUpBent},
     Recipe{"into_t_pose", 2, &intoTPose},
+    Recipe{"calibrate", 1, &calibrate},
     Recipe{"idle", 3, &idle},
     Recipe{"look_around", 2, &lookAround},
     Recipe{"turn_around", 3, &turnAround},
