@@ -1,0 +1,54 @@
+#include "libtracker/sensor/open_source.h"
+
+#include <string_view>
+
+#include "libtracker/core/error.h"
+#include "libtracker/core/parse_number.h"
+#include "libtracker/sensor/replay_source.h"
+#include "libtracker/sensor/returning_source.h"
+
+namespace depthmocap {
+
+namespace {
+
+struct SourceName {
+  std::string_view kind;
+  std::string_view rest;  // after the colon
+};
+
+SourceName split(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string_view::npos) return {name, {}};
+  return {name.substr(0, colon), name.substr(colon + 1)};
+}
+
+}  // namespace
+
+std::string checkSourceName(const std::string& name) {
+  const auto [kind, rest] = split(name);
+  if (kind == "replay") return rest.empty() ? "replay needs a recording: replay:REC" : "";
+  return "'" + name + "' is no source; sources are replay:REC";
+}
+
+std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOptions& options) {
+  const std::string wrong = checkSourceName(name);
+  if (!wrong.empty()) throw Error(wrong, "--source");
+  const auto [kind, rest] = split(name);
+  return std::make_unique<ReplaySource>(openRecording(rest), options.speed);
+}
+
+std::optional<DepthMode> parseDepthMode(const std::string& text) {
+  const std::string_view all = text;
+  const std::size_t cross = all.find('x');
+  const std::size_t at = all.find('@');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto width = parseInteger(all.substr(0, cross));
+  const auto height = parseInteger(all.substr(cross + 1, at == std::string_view::npos ? at : at - cross - 1));
+  const auto fps = at == std::string_view::npos ? 0.0 : parseDouble(all.substr(at + 1));
+  if (!width || !height || !fps || *width < 1 || *height < 1 || *width > 16384 || *height > 16384 || *fps < 0) {
+    return std::nullopt;
+  }
+  return DepthMode{static_cast<int>(*width), static_cast<int>(*height), *fps};
+}
+
+}  // namespace depthmocap

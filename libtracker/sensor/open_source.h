@@ -1,0 +1,36 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "libtracker/sensor/depth_source.h"
+
+namespace depthmocap {
+
+// A picture size and rate that a camera is asked for.
+struct DepthMode {
+  int width = 0;   // [px]
+  int height = 0;  // [px]
+  double fps = 0;  // [1/s]; 0 = any
+};
+
+// What one may say about a source beyond its name.
+struct SourceOptions {
+  double speed = 1;                     // of a replay; 0 = as fast as frames are asked for
+  std::optional<DepthMode> mode;        // none: 640x480 at 30 per second, or what comes nearest
+  std::optional<RecordingInfo> camera;  // intrinsics, distortion and depth unit; none: what the camera says itself
+  std::string pixel_format;             // V4L2 fourcc; empty: the best one that the camera offers
+  std::optional<double> depth_unit_m;   // [m] a depth step; none: by the pixel format
+};
+
+// Names: `openni2`, `openni2:URI`, `v4l2:/dev/videoN`, `replay:REC`. Error for a name that is none of these, a camera
+// that is not there or cannot be used, a recording that cannot be read. Cameras come back after they were unplugged.
+std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOptions& options);
+
+// "" where the name can be a source's, else what is wrong with it.
+std::string checkSourceName(const std::string& name);
+
+// `640x480@30` or `640x480`; nothing where the text is no mode.
+std::optional<DepthMode> parseDepthMode(const std::string& text);
+
+}  // namespace depthmocap
