@@ -7,6 +7,7 @@
 #include "libtracker/core/marker_set.h"
 #include "libtracker/core/track_state.h"
 #include "libtracker/skeleton/dof.h"
+#include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {
 
