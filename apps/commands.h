@@ -9,7 +9,9 @@ namespace depthmocap {
 
 void addEvaluateCommand(CLI::App& app);
 void addForestCommand(CLI::App& app);
+void addLiveCommand(CLI::App& app);
 void addPosedbCommand(CLI::App& app);
+void addRecordCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
 void addSynthesizeCommand(CLI::App& app);
 

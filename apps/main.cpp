@@ -19,6 +19,8 @@ constexpr int kWrongUsage = 2;
 
 void addCommands(CLI::App& app) {
   addReplayCommand(app);
+  addLiveCommand(app);
+  addRecordCommand(app);
   addEvaluateCommand(app);
   addForestCommand(app);
   addPosedbCommand(app);

@@ -32,6 +32,12 @@ ordered_json summary(const std::vector<StageTimes>& times, double StageTimes::*s
   return summary(std::move(ms));
 }
 
+ordered_json liveSummary(const LiveFigures& live) {
+  return {{"source", live.source},     {"received", live.received},         {"skipped", live.replaced},
+          {"missing", live.missing},   {"damaged", live.damaged},           {"returns", live.returns},
+          {"recorded", live.recorded}, {"not_recorded", live.not_recorded}, {"latency_ms", summary(live.latency_ms)}};
+}
+
 double peakRssMb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -62,19 +68,20 @@ void RunStats::write(const std::filesystem::path& path, double wall_s, bool adap
   stages["read"] = summary(read_ms_);
   stages["write"] = summary(write_ms_);
   const double iterations = std::accumulate(iterations_.begin(), iterations_.end(), 0.0);
-  const ordered_json stats = {{"frames", frames_},
-                              {"tracked", tracked_},
-                              {"coasting", coasting_},
-                              {"lost", lost_},
-                              {"reinitialised", reinitialised_},
-                              {"unreadable", unreadable_},
-                              {"wall_s", wall_s},
-                              {"stage_ms", stages},
-                              {"solver_iterations_mean", frames_ > 0 ? iterations / static_cast<double>(frames_) : 0.0},
-                              {"stature_m", stature_m_},
-                              {"size_adapted", adapted},
-                              {"peak_rss_mb", peakRssMb()},
-                              {"version", DEPTHMOCAP_VERSION}};
+  ordered_json stats = {{"frames", frames_},
+                        {"tracked", tracked_},
+                        {"coasting", coasting_},
+                        {"lost", lost_},
+                        {"reinitialised", reinitialised_},
+                        {"unreadable", unreadable_},
+                        {"wall_s", wall_s},
+                        {"stage_ms", stages},
+                        {"solver_iterations_mean", frames_ > 0 ? iterations / static_cast<double>(frames_) : 0.0},
+                        {"stature_m", stature_m_},
+                        {"size_adapted", adapted},
+                        {"peak_rss_mb", peakRssMb()},
+                        {"version", DEPTHMOCAP_VERSION}};
+  if (live_) stats["live"] = liveSummary(*live_);
   writeFileAtomically(path, stats.dump(2) + "\n");
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/live_figures.h"
 #include "libtracker/tracker/tracked_frame.h"
 
 namespace depthmocap {
@@ -14,6 +16,8 @@ class RunStats {
   void addRead(double ms) { read_ms_.push_back(ms); }
   void addWrite(double ms) { write_ms_.push_back(ms); }
   void addUnreadable() { ++unreadable_; }
+  // Adds "live" to what is written.
+  void setLive(const LiveFigures& figures) { live_ = figures; }
   // Written whole or not at all. `adapted`: no actor file was given and the size was fitted while tracking.
   void write(const std::filesystem::path& path, double wall_s, bool adapted) const;
   [[nodiscard]] std::size_t frames() const { return frames_; }
@@ -27,6 +31,7 @@ class RunStats {
   std::size_t reinitialised_ = 0;
   std::size_t unreadable_ = 0;
   double stature_m_ = 0;
+  std::optional<LiveFigures> live_;
   std::vector<StageTimes> ms_;
   std::vector<int> iterations_;
   std::vector<double> read_ms_;

@@ -9,8 +9,10 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{50};  // between two looks at whether to stop
 }
 
-Capture::Capture(DepthSource& source, Consumer consumer, std::function<void()> ended)
-    : source_(source), consumer_(std::move(consumer)), ended_(std::move(ended)), thread_([this] { run(); }) {}
+Capture::Capture(DepthSource& source, Consumer consumer, std::function<void()> ended, double seconds)
+    : source_(source), consumer_(std::move(consumer)), ended_(std::move(ended)), seconds_(seconds), thread_([this] {
+        run();
+      }) {}
 
 Capture::~Capture() {
   stopping_ = true;
@@ -41,6 +43,7 @@ void Capture::run() {
 bool Capture::step(SensorFrame& frame) {
   const SourceState state = source_.next(frame, kPatience);
   if (state == SourceState::Frame) {
+    if (seconds_ > 0 && frame.depth.time_s >= seconds_) return false;
     count(frame);
     return consumer_(frame);
   }

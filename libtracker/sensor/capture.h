@@ -28,8 +28,9 @@ class Capture {
   // Called on the capture thread with each frame; may keep the frame's memory by swapping. False ends the capture.
   using Consumer = std::function<bool(SensorFrame& frame)>;
 
-  // The source must outlive the capture. `ended` is called on the capture thread when nothing more will come.
-  Capture(DepthSource& source, Consumer consumer, std::function<void()> ended);
+  // The source must outlive the capture. `ended` is called on the capture thread when nothing more will come. Frames
+  // of `seconds` (0: all) are taken, by the sensor's time.
+  Capture(DepthSource& source, Consumer consumer, std::function<void()> ended, double seconds = 0);
   ~Capture();  // stops
   Capture(const Capture&) = delete;
   Capture& operator=(const Capture&) = delete;
@@ -46,6 +47,7 @@ class Capture {
   DepthSource& source_;
   Consumer consumer_;
   std::function<void()> ended_;
+  double seconds_;
   mutable std::mutex mutex_;
   CaptureStatus status_;
   std::int64_t last_number_ = -1;

@@ -60,6 +60,15 @@ TEST(Capture, EndsWhenTheConsumerHasEnough) {
   EXPECT_EQ(CaptureRun(source, 2).numbers.size(), 2U);
 }
 
+TEST(Capture, EndsAfterItsSecondsAndDoesNotCountTheFrameThatComesThen) {
+  ScriptedSource source({ScriptedSource::frame(0), ScriptedSource::frame(1), ScriptedSource::frame(2)});
+  std::promise<void> ended;
+  Capture capture(
+      source, [](SensorFrame&) { return true; }, [&ended] { ended.set_value(); }, 1.5 / source.info().fps);
+  ended.get_future().wait();
+  EXPECT_EQ(capture.status().received, 2);
+}
+
 TEST(Capture, StopsWhileNothingComes) {
   ScriptedSource source({}, SourceState::Waiting);
   Capture capture(

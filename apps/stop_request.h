@@ -1,0 +1,16 @@
+#pragma once
+
+namespace depthmocap {
+
+// Turns Ctrl-C (SIGINT) and SIGTERM into a request to stop, so that outputs are completed. The second Ctrl-C ends the
+// program at once. One object at a time.
+class StopRequest {
+ public:
+  StopRequest();
+  ~StopRequest();  // signals do again what they did before
+  StopRequest(const StopRequest&) = delete;
+  StopRequest& operator=(const StopRequest&) = delete;
+  [[nodiscard]] static bool made();
+};
+
+}  // namespace depthmocap
