@@ -16,6 +16,10 @@ struct TrackOptions {
   std::filesystem::path joints;
   std::filesystem::path pose;
   std::filesystem::path bvh;
+  bool bvh_rigid = false;      // bones of one length in the BVH, also where the body's size was still being found
+  std::string bvh_unit = "m";  // or "cm"
+  std::filesystem::path gltf;
+  double smooth = 0;  // [0, 1] of the output filter; 0 = off
   std::filesystem::path labels;
   std::filesystem::path preview;
   std::filesystem::path contact_sheet;

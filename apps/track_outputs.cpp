@@ -8,10 +8,15 @@
 #include <vector>
 
 #include "apps/preview.h"
+#include "libtracker/body/builtin_body.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/core/camera.h"
 #include "libtracker/core/error.h"
 #include "libtracker/motion/bvh_writer.h"
+#include "libtracker/output/gltf.h"
+#include "libtracker/output/pose_smoother.h"
 #include "libtracker/recording/track_files.h"
+#include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 namespace {
@@ -50,63 +55,123 @@ class LabelWriter {
   fs::path folder_;
 };
 
+// The motion as animation files, which are written at the end: a body's bone lengths are known only then.
+struct AnimationFiles {
+  explicit AnimationFiles(const TrackOptions& options, double recording_fps)
+      : bvh(options.bvh),
+        gltf(options.gltf),
+        bvh_rigid(options.bvh_rigid),
+        bvh_scale(options.bvh_unit == "cm" ? kCentimetres : 1.0),
+        fps(recording_fps) {}
+
+  [[nodiscard]] bool wanted() const { return !bvh.empty() || !gltf.empty(); }
+  void add(const TrackedFrame& tracked) {
+    if (!wanted()) return;
+    if (tracked.state == TrackState::Lost) {
+      motion.addLost(tracked.time_s);
+    } else {
+      motion.add(tracked.time_s, tracked.q, tracked.lengths);
+    }
+  }
+  // `lengths`: the body's at the end.
+  void write(const BoneLengths& lengths) {
+    if (!wanted()) return;
+    if (motion.empty()) {
+      throw Error("nobody was tracked, so there is no motion to write", (bvh.empty() ? gltf : bvh).string());
+    }
+    const MotionTrack track = motion.track(lengths);
+    if (!bvh.empty()) writeBvh(track);
+    if (!gltf.empty()) writeGltf(gltf, makeBuiltinBody(track.lengths), track);
+    bvh.clear();
+    gltf.clear();
+  }
+
+ private:
+  static constexpr double kCentimetres = 100.0;
+
+  void writeBvh(const MotionTrack& track) const {
+    const bool moving = track.sizeChanges() && !bvh_rigid;
+    BvhWriter writer(bvh, makeSkeleton(track.lengths), 1.0 / track.frameTime_s(fps), bvh_scale, moving);
+    for (const MotionTrack::Frame& frame : track.frames) {
+      if (moving) {
+        writer.write(frame.q, makeSkeleton(track.lengths.scaled(frame.scale)));
+      } else {
+        writer.write(frame.q);
+      }
+    }
+    writer.finish();
+  }
+
+  fs::path bvh;
+  fs::path gltf;
+  bool bvh_rigid;
+  double bvh_scale;
+  double fps;
+  MotionTrackBuilder motion;
+};
+
 }  // namespace
 
 struct TrackOutputs::Files {
+  Files(const TrackOptions& options, const RecordingInfo& info)
+      : animation(options, info.fps), smoother(options.smooth) {}
+
   std::optional<JointsWriter> joints;
   std::optional<PoseWriter> pose;
   std::optional<LabelWriter> labels;
   std::optional<PreviewWriter> preview;
   std::optional<ContactSheet> contact_sheet;
-  // A body's bone lengths are known only at the end, so the BVH waits for them.
-  fs::path bvh;
-  double fps = 30;
-  std::vector<Pose> bvh_poses;
-  std::size_t bvh_before_first = 0;  // frames before the actor was first seen
+  AnimationFiles animation;
+  PoseSmoother smoother;
+  TrackedFrame smoothed;
+  BoneLengths last_lengths;
 
-  void writeBvh(const ActorModel& actor);
+  const TrackedFrame& smooth(const TrackedFrame& tracked);
 };
 
-TrackOutputs::TrackOutputs(const TrackOptions& options, const RecordingInfo& info) : files_(std::make_unique<Files>()) {
+TrackOutputs::TrackOutputs(const TrackOptions& options, const RecordingInfo& info)
+    : files_(std::make_unique<Files>(options, info)) {
   Files& f = *files_;
   if (!options.joints.empty()) f.joints.emplace(options.joints);
   if (!options.pose.empty()) f.pose.emplace(options.pose);
   if (!options.labels.empty()) f.labels.emplace(options.labels);
   if (!options.preview.empty()) f.preview.emplace(options.preview, info.camera, info.fps);
   if (!options.contact_sheet.empty()) f.contact_sheet.emplace(options.contact_sheet, info.camera);
-  f.bvh = options.bvh;
-  f.fps = info.fps;
 }
 
-TrackOutputs::~TrackOutputs() = default;
-
-void TrackOutputs::write(const DepthFrame& frame, const TrackedFrame& tracked) {
-  Files& f = *files_;
-  const JointsRow row = jointsRow(tracked);
-  const bool lost = tracked.state == TrackState::Lost;
-  if (f.joints) f.joints->write(row);
-  if (f.pose && !lost) f.pose->write({tracked.frame, tracked.time_s, tracked.q});
-  if (f.labels) f.labels->write(tracked);
-  const PreviewFrame preview{&frame.depth, &tracked.labels, &tracked.markers_camera, &row};
-  if (f.preview) f.preview->write(preview);
-  if (f.contact_sheet) f.contact_sheet->add(preview);
-  if (f.bvh.empty()) return;
-  // An animation has no gaps: the pose rests while the actor is lost.
-  if (!lost) {
-    f.bvh_poses.push_back(tracked.q);
-  } else if (!f.bvh_poses.empty()) {
-    f.bvh_poses.push_back(Pose(f.bvh_poses.back()));
-  } else {
-    ++f.bvh_before_first;
+TrackOutputs::~TrackOutputs() {
+  try {
+    files_->animation.write(files_->last_lengths);
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): another failure is already being reported
   }
 }
 
-void TrackOutputs::Files::writeBvh(const ActorModel& actor) {
-  if (bvh_poses.empty()) throw Error("nobody was tracked, so there is no motion to write", bvh.string());
-  bvh_poses.insert(bvh_poses.begin(), bvh_before_first, Pose(bvh_poses.front()));
-  BvhWriter writer(bvh, actor.skeleton, fps);
-  for (const Pose& q : bvh_poses) writer.write(q);
-  writer.finish();
+const TrackedFrame& TrackOutputs::Files::smooth(const TrackedFrame& tracked) {
+  if (!smoother.on()) return tracked;
+  if (tracked.state == TrackState::Lost) {
+    smoother.reset();
+    return tracked;
+  }
+  smoothed = tracked;
+  smoothed.q = smoother.smooth(tracked.q, tracked.time_s);
+  smoothed.joints_camera =
+      uprightWorldFromCamera().transpose() * jointPositions(makeSkeleton(tracked.lengths), smoothed.q);
+  return smoothed;
+}
+
+const TrackedFrame& TrackOutputs::write(const DepthFrame& frame, const TrackedFrame& tracked) {
+  Files& f = *files_;
+  const TrackedFrame& shown = f.smooth(tracked);
+  const JointsRow row = jointsRow(shown);
+  if (f.joints) f.joints->write(row);
+  if (f.pose && shown.state != TrackState::Lost) f.pose->write({shown.frame, shown.time_s, shown.q});
+  if (f.labels) f.labels->write(shown);
+  const PreviewFrame preview{&frame.depth, &shown.labels, &shown.markers_camera, &row};
+  if (f.preview) f.preview->write(preview);
+  if (f.contact_sheet) f.contact_sheet->add(preview);
+  f.animation.add(shown);
+  f.last_lengths = shown.lengths;
+  return shown;
 }
 
 void TrackOutputs::finish(const ActorModel& actor) {
@@ -115,7 +180,7 @@ void TrackOutputs::finish(const ActorModel& actor) {
   if (f.pose) f.pose->finish();
   if (f.preview) f.preview->finish();
   if (f.contact_sheet) f.contact_sheet->finish();
-  if (!f.bvh.empty()) f.writeBvh(actor);
+  f.animation.write(actor.skeleton.lengths);
 }
 
 }  // namespace depthmocap

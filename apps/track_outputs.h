@@ -15,7 +15,8 @@ class TrackOutputs {
  public:
   TrackOutputs(const TrackOptions& options, const RecordingInfo& info);
   ~TrackOutputs();
-  void write(const DepthFrame& frame, const TrackedFrame& tracked);
+  // Returns what was written: the tracked frame, smoothed as the options ask. Valid until the next call.
+  const TrackedFrame& write(const DepthFrame& frame, const TrackedFrame& tracked);
   // `actor`: the body at the end of the run.
   void finish(const ActorModel& actor);
 

@@ -19,6 +19,7 @@ constexpr double kCoarseCellPerStature = 0.018;
 constexpr double kLeanest = -1.2;
 constexpr double kFattest = 4.0;
 constexpr double kWeightTolerance = 0.05;
+constexpr double kOrdinaryBodyMassIndex = 23.5;  // [kg/m^2]
 
 void validate(const BodyShape& shape) {
   const auto require = [](const char* field, double value, double low, double high) {
@@ -60,8 +61,19 @@ BoneLengths typicalBoneLengths(Sex sex, double stature_m) {
 
 BodySurface makeBuiltinBody(const BodyShape& shape) {
   validate(shape);
+  return makeBuiltinBody(shape, typicalBoneLengths(shape.sex, shape.stature_m));
+}
+
+BodySurface makeBuiltinBody(const BoneLengths& lengths) {
+  BodyShape shape;
+  shape.stature_m = statureOf(lengths);
+  shape.weight_kg = kOrdinaryBodyMassIndex * shape.stature_m * shape.stature_m;
+  return makeBuiltinBody(shape, lengths);
+}
+
+BodySurface makeBuiltinBody(const BodyShape& shape, const BoneLengths& lengths) {
+  validate(shape);
   BodySurface body;
-  const BoneLengths lengths = typicalBoneLengths(shape.sex, shape.stature_m);
   body.skeleton = makeSkeleton(lengths);
   const double volume = shape.weight_kg / kBodyDensityKgPerLitre * 1e-3;
   // The coarse grid misjudges the volume a little; the first surface shows by how much.

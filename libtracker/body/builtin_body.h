@@ -9,6 +9,12 @@ namespace depthmocap {
 // outside its range.
 BodySurface makeBuiltinBody(const BodyShape& shape);
 
+// The same around given bone lengths; shape.stature_m is the height of the flesh.
+BodySurface makeBuiltinBody(const BodyShape& shape, const BoneLengths& lengths);
+
+// A man of ordinary weight around given bone lengths: what a tracked skeleton is shown with.
+BodySurface makeBuiltinBody(const BoneLengths& lengths);
+
 // Bone lengths [m] of an adult of this sex and stature [m].
 BoneLengths typicalBoneLengths(Sex sex, double stature_m);
 

@@ -13,17 +13,6 @@ struct Rigid {
 };
 using SkinMotion = std::array<Rigid, kSkinBoneCount>;
 
-struct TwistBone {
-  int untwisted;
-  Bone bone;
-  int axis;
-  Dof twist;
-};
-constexpr std::array<TwistBone, 4> kTwistBones = {{{kRightHumerusUntwisted, Bone::RightHumerus, 0, kRhumerusRx},
-                                                   {kLeftHumerusUntwisted, Bone::LeftHumerus, 0, kLhumerusRx},
-                                                   {kRightFemurUntwisted, Bone::RightFemur, 1, kRfemurRy},
-                                                   {kLeftFemurUntwisted, Bone::LeftFemur, 1, kLfemurRy}}};
-
 Rigid aboutJoint(const Eigen::Matrix3d& R, const Eigen::Vector3d& zero_origin, const Eigen::Vector3d& origin) {
   return {R.cast<float>(), (origin - R * zero_origin).cast<float>()};
 }

@@ -16,16 +16,18 @@ SourceMotion readBvh(const std::filesystem::path& path);
 
 // Writes BVH row by row into a temporary file beside `path`; finish() completes and renames it, and without it nothing
 // stays. Channels: root Xposition Yposition Zposition Zrotation Yrotation Xrotation, every other bone Zrotation
-// Yrotation Xrotation; the Euler angles [deg] continue those of the row before. Lengths are multiplied by `scale`.
-// Errors name the file.
+// Yrotation Xrotation, with positions before them where bones move in their parents (`moving_bones`); the Euler angles
+// [deg] continue those of the row before. Lengths are multiplied by `scale`. Errors name the file.
 class BvhRows {
  public:
-  BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale);
+  BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale,
+          bool moving_bones = false);
   ~BvhRows();
   BvhRows(const BvhRows&) = delete;
   BvhRows& operator=(const BvhRows&) = delete;
 
-  void write(const Eigen::Vector3d& root_position, const std::vector<Eigen::Quaterniond>& rotations);
+  // `positions` of the bones in their parents, one a bone; only the root's is read unless bones move.
+  void write(const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Quaterniond>& rotations);
   void finish();
 
  private:
@@ -38,6 +40,7 @@ class BvhRows {
   std::vector<MotionBone> bones_;
   double fps_;
   double scale_;
+  bool moving_bones_;
   std::ofstream out_;
   std::vector<std::size_t> order_;  // bones as the hierarchy lists them
   std::streamoff frames_at_ = 0;    // where the number of frames stands

@@ -45,8 +45,8 @@ Vector3d eulerZyx(const Eigen::Matrix3d& R, const Vector3d& near) {
 
 }  // namespace
 
-BvhRows::BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale)
-    : path_(std::move(path)), bones_(std::move(bones)), fps_(fps), scale_(scale) {
+BvhRows::BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale, bool moving_bones)
+    : path_(std::move(path)), bones_(std::move(bones)), fps_(fps), scale_(scale), moving_bones_(moving_bones) {
   DMC_CHECK(!bones_.empty() && bones_[0].parent < 0 && fps > 0 && scale > 0);
   temporary_ = path_;
   temporary_ += ".part";
@@ -76,7 +76,7 @@ void BvhRows::bone(std::size_t index, int depth) {
   };
   out_ << indent << (depth == 0 ? "ROOT " : "JOINT ") << bone.name << '\n' << indent << "{\n";
   out_ << indent << "  " << offset(depth == 0 ? Vector3d::Zero() : bone.offset);
-  out_ << indent << (depth == 0 ? "  CHANNELS 6 Xposition Yposition Zposition " : "  CHANNELS 3 ")
+  out_ << indent << (depth == 0 || moving_bones_ ? "  CHANNELS 6 Xposition Yposition Zposition " : "  CHANNELS 3 ")
        << "Zrotation Yrotation Xrotation\n";
   bool has_child = false;
   for (std::size_t child = index + 1; child < bones_.size(); ++child) {
@@ -100,14 +100,17 @@ void BvhRows::header() {
   check();
 }
 
-void BvhRows::write(const Vector3d& root_position, const std::vector<Eigen::Quaterniond>& rotations) {
+void BvhRows::write(const std::vector<Vector3d>& positions, const std::vector<Eigen::Quaterniond>& rotations) {
   DMC_CHECK(rotations.size() == bones_.size() && !finished_);
-  const Vector3d p = scale_ * root_position;
-  std::string row = fmt::format("{:.6f} {:.6f} {:.6f}", p.x(), p.y(), p.z());
+  DMC_CHECK(positions.size() == bones_.size() || (positions.size() == 1 && !moving_bones_));
+  std::string row;
+  const auto add = [&](const Vector3d& v) {
+    row += fmt::format("{}{:.6f} {:.6f} {:.6f}", row.empty() ? "" : " ", v.x(), v.y(), v.z());
+  };
   for (const std::size_t b : order_) {
+    if (b == 0 || moving_bones_) add(scale_ * positions[b]);
     angles_[b] = eulerZyx(rotations[b].toRotationMatrix(), angles_[b]);
-    const Vector3d degrees = kDegrees * angles_[b];
-    row += fmt::format(" {:.6f} {:.6f} {:.6f}", degrees[0], degrees[1], degrees[2]);
+    add(kDegrees * angles_[b]);
   }
   out_ << row << '\n';
   check();
@@ -127,7 +130,7 @@ void BvhRows::finish() {
 
 void writeBvh(const SourceMotion& motion, const std::filesystem::path& path, double scale) {
   BvhRows rows(path, motion.bones, motion.fps, scale);
-  for (const MotionFrame& frame : motion.frames) rows.write(frame.position[0], frame.rotation);
+  for (const MotionFrame& frame : motion.frames) rows.write(frame.position, frame.rotation);
   rows.finish();
 }
 

@@ -46,15 +46,29 @@ std::vector<MotionBone> bvhBones(const Skeleton& s) {
   return bones;
 }
 
-BvhWriter::BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale)
-    : rows_(path, bvhBones(skeleton), fps, scale),
-      rotations_(bvhBones(skeleton).size(), Eigen::Quaterniond::Identity()) {}
+BvhWriter::BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale,
+                     bool moving_bones)
+    : rows_(path, bvhBones(skeleton), fps, scale, moving_bones) {
+  for (const MotionBone& bone : bvhBones(skeleton)) positions_.push_back(bone.offset);
+  rotations_.assign(positions_.size(), Eigen::Quaterniond::Identity());
+}
 
 void BvhWriter::write(const Pose& q) {
+  writeRow(q);
+}
+
+void BvhWriter::write(const Pose& q, const Skeleton& skeleton) {
+  const std::vector<MotionBone> bones = bvhBones(skeleton);
+  for (std::size_t b = 0; b < bones.size(); ++b) positions_[b] = bones[b].offset;
+  writeRow(q);
+}
+
+void BvhWriter::writeRow(const Pose& q) {
+  positions_[0] = q.head<3>();
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     rotations_[b] = Eigen::Quaterniond(localRotation(static_cast<Bone>(b), q));
   }
-  rows_.write(q.head<3>(), rotations_);
+  rows_.write(positions_, rotations_);
 }
 
 }  // namespace depthmocap

@@ -12,13 +12,20 @@ namespace depthmocap {
 // centimetres. Hands and toes do not move by themselves.
 class BvhWriter {
  public:
-  BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale = 1.0);
+  // `moving_bones`: every bone has position channels, for a body whose size is still being found.
+  BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale = 1.0,
+            bool moving_bones = false);
   void write(const Pose& q);
+  // A frame with bones of other lengths; only where bones move.
+  void write(const Pose& q, const Skeleton& skeleton);
   // Completes the file under its name; without it no file is left.
   void finish() { rows_.finish(); }
 
  private:
+  void writeRow(const Pose& q);
+
   BvhRows rows_;
+  std::vector<Eigen::Vector3d> positions_;
   std::vector<Eigen::Quaterniond> rotations_;
 };
 

@@ -123,6 +123,21 @@ TEST_F(Bvh, WriterKeepsJointPositions) {
   }
 }
 
+TEST_F(Bvh, BonesMayMoveWhileTheSizeIsFound) {
+  const BoneLengths lengths = averageBoneLengths(1.8);
+  Random random(7);
+  const Pose q = test::randomPose(random, 1.0);
+  BvhWriter writer(file("moving.bvh"), makeSkeleton(lengths), 30.0, 1.0, true);
+  for (const double scale : {0.9, 1.0}) writer.write(q, makeSkeleton(lengths.scaled(scale)));
+  writer.finish();
+  const SourceMotion motion = readBvh(file("moving.bvh"));
+  for (std::size_t f = 0; f < 2; ++f) {
+    JointPositions difference = joints(motion, f) - jointPositions(makeSkeleton(lengths.scaled(f == 0 ? 0.9 : 1.0)), q);
+    if (f == 0) difference.col(3).setZero();  // an End Site does not move
+    EXPECT_LT(difference.colwise().norm().maxCoeff(), 1e-4) << "frame " << f;
+  }
+}
+
 TEST_F(Bvh, EulerAnglesAreContinuous) {
   const Skeleton skeleton = makeSkeleton(BoneLengths{});
   BvhWriter writer(file("spin.bvh"), skeleton, 30.0);
