@@ -4,6 +4,8 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <thread>
 
 #include "apps/commands.h"
 #include "apps/progress.h"
@@ -50,12 +52,29 @@ bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame, RunSta
   return true;
 }
 
+// Programs that show the motion while it is tracked want it at the pace of the recording.
+class Pace {
+ public:
+  explicit Pace(bool on) : on_(on) {}
+  void waitFor(double time_s) {
+    if (!on_) return;
+    if (!first_s_) first_s_ = time_s;
+    std::this_thread::sleep_until(start_ + std::chrono::duration<double>(time_s - *first_s_));
+  }
+
+ private:
+  bool on_;
+  Clock::time_point start_ = Clock::now();
+  std::optional<double> first_s_;
+};
+
 void replay(const ReplayOptions& options) {
   const auto start = Clock::now();
   const std::unique_ptr<RecordingReader> reader = openRecording(options.recording);
   Tracker tracker(loadTrackerModels(options.track), reader->info().camera, trackerConfig(options.track));
   TrackOutputs outputs(options.track, reader->info());
   RunStats stats;
+  Pace pace(!options.track.vmc.empty());
   std::size_t readable = 0;
   DepthFrame frame;
   {
@@ -65,6 +84,7 @@ void replay(const ReplayOptions& options) {
       readable += readFrame(*reader, i, frame, stats) ? 1 : 0;
       const TrackedFrame& tracked = tracker.process(frame);
       stats.addFrame(tracked);
+      pace.waitFor(frame.time_s);
       const auto write_start = Clock::now();
       outputs.write(frame, tracked);
       stats.addWrite(millisecondsSince(write_start));

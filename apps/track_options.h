@@ -19,6 +19,7 @@ struct TrackOptions {
   bool bvh_rigid = false;      // bones of one length in the BVH, also where the body's size was still being found
   std::string bvh_unit = "m";  // or "cm"
   std::filesystem::path gltf;
+  std::string vmc;    // HOST:PORT
   double smooth = 0;  // [0, 1] of the output filter; 0 = off
   std::filesystem::path labels;
   std::filesystem::path preview;

@@ -15,6 +15,7 @@
 #include "libtracker/motion/bvh_writer.h"
 #include "libtracker/output/gltf.h"
 #include "libtracker/output/pose_smoother.h"
+#include "libtracker/output/vmc_sender.h"
 #include "libtracker/recording/track_files.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
@@ -122,6 +123,7 @@ struct TrackOutputs::Files {
   std::optional<PreviewWriter> preview;
   std::optional<ContactSheet> contact_sheet;
   AnimationFiles animation;
+  std::optional<VmcSender> vmc;
   PoseSmoother smoother;
   TrackedFrame smoothed;
   BoneLengths last_lengths;
@@ -136,6 +138,7 @@ TrackOutputs::TrackOutputs(const TrackOptions& options, const RecordingInfo& inf
   if (!options.pose.empty()) f.pose.emplace(options.pose);
   if (!options.labels.empty()) f.labels.emplace(options.labels);
   if (!options.preview.empty()) f.preview.emplace(options.preview, info.camera, info.fps);
+  if (!options.vmc.empty()) f.vmc.emplace(options.vmc);
   if (!options.contact_sheet.empty()) f.contact_sheet.emplace(options.contact_sheet, info.camera);
 }
 
@@ -170,6 +173,7 @@ const TrackedFrame& TrackOutputs::write(const DepthFrame& frame, const TrackedFr
   if (f.preview) f.preview->write(preview);
   if (f.contact_sheet) f.contact_sheet->add(preview);
   f.animation.add(shown);
+  if (f.vmc) f.vmc->send(shown.time_s, shown.state, shown.lengths, shown.q);
   f.last_lengths = shown.lengths;
   return shown;
 }

@@ -23,6 +23,10 @@ BoneLengths BoneLengths::scaled(double factor) const {
   return result;
 }
 
+double ankleHeight(const BoneLengths& l) {
+  return kAnkleHeightPerLowerLeg * l.lower_leg;
+}
+
 double statureOf(const BoneLengths& l) {
   return l.lower_leg * (1.0 + kAnkleHeightPerLowerLeg) + l.upper_leg + l.hip_drop + l.torso +
          l.neck_to_head * (1.0 + kCrownPerNeckToHead);

@@ -105,6 +105,8 @@ inline constexpr std::array<double BoneLengths::*, kBoneLengthCount> kBoneLength
 
 // Standing height [m] of a body with these lengths: ankle height + legs + torso + neck_to_head + half a head.
 double statureOf(const BoneLengths& lengths);
+// Ankle joint above the floor [m] in the zero pose.
+double ankleHeight(const BoneLengths& lengths);
 // The average body scaled to a stature [m] (> 0).
 BoneLengths averageBoneLengths(double stature_m);
 

@@ -1,0 +1,238 @@
+#include <array>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "libtracker/core/random.h"
+#include "libtracker/output/floor_origin.h"
+#include "libtracker/output/vmc_bones.h"
+#include "libtracker/output/vmc_sender.h"
+#include "libtracker/skeleton/forward_kinematics.h"
+#include "libtracker/skeleton/joint_limits.h"
+#include "tests/support/temporary_folder.h"
+
+namespace depthmocap {
+namespace {
+
+// A receiver by the specifications of OSC 1.0 and VMC, on a UDP socket of its own; nothing of the sender's library.
+struct OscMessage {
+  std::string address;
+  std::string types;
+  std::string text;           // the first string argument
+  std::vector<float> floats;  // in order
+  std::vector<int> ints;
+};
+
+class OscReceiver {
+ public:
+  OscReceiver() : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+    sockaddr_in any{};
+    any.sin_family = AF_INET;
+    any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&any), sizeof any), 0);
+    socklen_t size = sizeof any;
+    getsockname(socket_, reinterpret_cast<sockaddr*>(&any), &size);
+    port_ = ntohs(any.sin_port);
+    const timeval wait{2, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
+  }
+  ~OscReceiver() { ::close(socket_); }
+  OscReceiver(const OscReceiver&) = delete;
+  OscReceiver& operator=(const OscReceiver&) = delete;
+
+  [[nodiscard]] std::string target() const { return "127.0.0.1:" + std::to_string(port_); }
+  // The messages of one bundle.
+  std::vector<OscMessage> receive() {
+    std::array<char, 4096> buffer{};
+    const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), 0);
+    EXPECT_GT(size, 16) << "nothing came";
+    EXPECT_LT(size, 1500);
+    packet_.assign(buffer.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+    EXPECT_EQ(packet_.substr(0, 8), std::string("#bundle\0", 8));
+    std::vector<OscMessage> messages;
+    for (at_ = 16; at_ < packet_.size();) {
+      const std::size_t end = at_ + 4 + integer(at_);
+      at_ += 4;
+      messages.push_back(message());
+      EXPECT_EQ(at_, end);
+    }
+    return messages;
+  }
+
+ private:
+  std::uint32_t integer(std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, packet_.data() + at, 4);
+    return ntohl(value);
+  }
+  std::string text() {
+    std::string result(packet_.c_str() + at_);
+    at_ += (result.size() / 4 + 1) * 4;
+    return result;
+  }
+  OscMessage message() {
+    OscMessage m;
+    m.address = text();
+    m.types = text();
+    for (const char type : m.types.substr(1)) {
+      if (type == 's') {
+        m.text = text();
+        continue;
+      }
+      const std::uint32_t bits = integer(at_);
+      at_ += 4;
+      if (type == 'i') m.ints.push_back(static_cast<int>(bits));
+      if (type == 'f') {
+        float value = 0;
+        std::memcpy(&value, &bits, 4);
+        m.floats.push_back(value);
+      }
+    }
+    return m;
+  }
+
+  int socket_;
+  int port_ = 0;
+  std::string packet_;
+  std::size_t at_ = 0;
+};
+
+// Unity's hierarchy of the humanoid bones that are sent.
+const std::map<std::string, std::string>& parents() {
+  static const std::map<std::string, std::string> map = {{"Spine", "Hips"},
+                                                         {"Neck", "Spine"},
+                                                         {"Head", "Neck"},
+                                                         {"LeftShoulder", "Spine"},
+                                                         {"LeftUpperArm", "LeftShoulder"},
+                                                         {"LeftLowerArm", "LeftUpperArm"},
+                                                         {"LeftHand", "LeftLowerArm"},
+                                                         {"RightShoulder", "Spine"},
+                                                         {"RightUpperArm", "RightShoulder"},
+                                                         {"RightLowerArm", "RightUpperArm"},
+                                                         {"RightHand", "RightLowerArm"},
+                                                         {"LeftUpperLeg", "Hips"},
+                                                         {"LeftLowerLeg", "LeftUpperLeg"},
+                                                         {"LeftFoot", "LeftLowerLeg"},
+                                                         {"LeftToes", "LeftFoot"},
+                                                         {"RightUpperLeg", "Hips"},
+                                                         {"RightLowerLeg", "RightUpperLeg"},
+                                                         {"RightFoot", "RightLowerLeg"},
+                                                         {"RightToes", "RightFoot"}};
+  return map;
+}
+
+using Bones = std::map<std::string, Eigen::Isometry3d>;  // in Unity's coordinates
+
+Bones localBones(const std::vector<OscMessage>& messages) {
+  Bones bones;
+  for (const OscMessage& m : messages) {
+    if (m.address != "/VMC/Ext/Bone/Pos") continue;
+    EXPECT_EQ(m.types, ",sfffffff");
+    const auto& f = m.floats;
+    const Eigen::Quaternionf r(f.at(6), f.at(3), f.at(4), f.at(5));
+    bones[m.text] = Eigen::Translation3d(f.at(0), f.at(1), f.at(2)) * r.cast<double>();
+  }
+  return bones;
+}
+
+Eigen::Isometry3d globalBone(const Bones& bones, const std::string& name) {
+  const auto parent = parents().find(name);
+  if (parent == parents().end()) return bones.at(name);
+  return globalBone(bones, parent->second) * bones.at(name);
+}
+
+TEST(VmcSender, ReceiverRebuildsTheSkeleton) {
+  const std::array<const char*, kJointCount> names = {"Hips",          "Spine",        "Neck",          "",
+                                                      "LeftUpperArm",  "LeftLowerArm", "LeftHand",      "RightUpperArm",
+                                                      "RightLowerArm", "RightHand",    "LeftUpperLeg",  "LeftLowerLeg",
+                                                      "LeftFoot",      "LeftToes",     "RightUpperLeg", "RightLowerLeg",
+                                                      "RightFoot",     "RightToes"};
+  const Eigen::Vector3d mirror(-1, 1, 1);  // Unity's x is ours mirrored
+  OscReceiver receiver;
+  VmcSender sender(receiver.target());
+  const BoneLengths lengths = averageBoneLengths(1.71);
+  const Skeleton skeleton = makeSkeleton(lengths);
+  Random random(4);
+  for (int frame = 0; frame < 20; ++frame) {
+    Pose q;
+    for (int i = 0; i < kDofCount; ++i) q[i] = random.uniform(-1.5, 1.5);
+    q = clampedToLimits(q);
+    sender.send(frame / 30.0, TrackState::Tracking, lengths, q);
+    auto messages = receiver.receive();
+    EXPECT_EQ(messages.at(0).address, "/VMC/Ext/OK");
+    EXPECT_EQ(messages.at(0).ints, (std::vector<int>{1, 3, 0, 1}));
+    EXPECT_EQ(messages.at(1).address, "/VMC/Ext/T");
+    EXPECT_NEAR(messages.at(1).floats.at(0), frame / 30.0, 1e-5);
+    EXPECT_EQ(messages.at(2).address, "/VMC/Ext/Root/Pos");
+    for (const OscMessage& m : receiver.receive()) messages.push_back(m);
+    const Bones bones = localBones(messages);
+    ASSERT_EQ(bones.size(), static_cast<std::size_t>(kVmcBoneCount));
+    const JointPositions expected = jointPositions(skeleton, q);
+    const Eigen::Vector3d hips = globalBone(bones, "Hips").translation();
+    for (int j = 0; j < kJointCount; ++j) {
+      if (j == static_cast<int>(Joint::Head)) continue;  // Unity's head starts at the top of the neck
+      const Eigen::Vector3d p = globalBone(bones, names[static_cast<std::size_t>(j)]).translation() - hips;
+      const Eigen::Vector3d e = mirror.cwiseProduct(expected.col(j) - expected.col(0));
+      EXPECT_LT((p - e).norm(), 1e-4) << names[static_cast<std::size_t>(j)];
+    }
+    ForwardKinematics fk;
+    fk.update(skeleton, q);
+    const Eigen::Matrix3d M = mirror.asDiagonal();
+    const Eigen::Matrix3d arm = M * fk.R_world_bone(Bone::RightRadius) * M;
+    EXPECT_LT(Eigen::AngleAxisd(Eigen::Matrix3d(arm.transpose() * globalBone(bones, "RightLowerArm").linear())).angle(),
+              1e-3);
+  }
+}
+
+TEST(VmcSender, RestPoseIsUnitysTPose) {
+  const auto bones = vmcBones(makeSkeleton(BoneLengths{}), Pose::Zero(), Eigen::Vector3d::Zero());
+  for (const VmcBone& bone : bones) EXPECT_LT(bone.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-12);
+  const auto bone = [&](std::string_view name) {
+    const auto found = std::find(kVmcBoneNames.begin(), kVmcBoneNames.end(), name);
+    return bones.at(static_cast<std::size_t>(found - kVmcBoneNames.begin()));
+  };
+  EXPECT_LT(bone("LeftLowerArm").position.x(), -0.2);  // left is -x when looking along +z
+  EXPECT_GT(bone("LeftToes").position.z(), 0.1);
+}
+
+TEST(VmcSender, LostFrameSaysSoAndSendsNoBones) {
+  OscReceiver receiver;
+  VmcSender sender(receiver.target());
+  sender.send(0, TrackState::Lost, BoneLengths{}, Pose::Zero());
+  const auto messages = receiver.receive();
+  ASSERT_EQ(messages.size(), 2U);
+  EXPECT_EQ(messages[0].ints.back(), 0);
+}
+
+TEST(VmcSender, BadTargetsAreNamed) {
+  for (const char* target : {"", "localhost", ":39539", "localhost:x", "localhost:0", "localhost:70000"}) {
+    EXPECT_NE(errorOf([&] { VmcSender sender(target); }).find("HOST:PORT"), std::string::npos) << target;
+  }
+  EXPECT_EQ(errorOf([&] { VmcSender sender("[::1]:39539"); }), "");
+}
+
+TEST(FloorOrigin, IsBelowTheFirstPlaceAtTheHeightOfTheSoles) {
+  const Skeleton skeleton = makeSkeleton(BoneLengths{});
+  FloorOrigin floor;
+  Pose q = Pose::Zero();
+  q.head<3>() << 0.4, -0.1, -2.5;
+  const double leg = skeleton.lengths.hip_drop + skeleton.lengths.upper_leg + skeleton.lengths.lower_leg;
+  const double height = leg + ankleHeight(skeleton.lengths);
+  EXPECT_LT((floor.update(skeleton, q, 0.0) - Eigen::Vector3d(0.4, -0.1 - height, -2.5)).norm(), 1e-12);
+  q[kRootTy] = 0.2;  // a jump of a third of a second
+  for (int i = 1; i <= 10; ++i) floor.update(skeleton, q, i / 30.0);
+  q[kRootTx] = 2.0;
+  const Eigen::Vector3d after = floor.update(skeleton, q, 11 / 30.0);
+  EXPECT_NEAR(after.y(), -0.1 - height, 0.03);
+  EXPECT_EQ(after.x(), 0.4);
+}
+
+}  // namespace
+}  // namespace depthmocap
