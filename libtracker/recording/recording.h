@@ -20,7 +20,7 @@ struct RecordingInfo {
   std::string extra_json = "{}";  // unknown keys, kept when the recording is rewritten
 };
 
-// A recording that is read frame by frame: depthmocap folder or TUM RGB-D folder. Not thread-safe.
+// A recording that is read frame by frame: depthmocap folder, TUM RGB-D folder or OpenNI file. Not thread-safe.
 class RecordingReader {
  public:
   virtual ~RecordingReader() = default;

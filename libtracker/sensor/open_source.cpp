@@ -4,6 +4,8 @@
 
 #include "libtracker/core/error.h"
 #include "libtracker/core/parse_number.h"
+#include "libtracker/openni/openni_runtime.h"
+#include "libtracker/sensor/openni_source.h"
 #include "libtracker/sensor/replay_source.h"
 #include "libtracker/sensor/returning_source.h"
 
@@ -22,18 +24,26 @@ SourceName split(std::string_view name) {
   return {name.substr(0, colon), name.substr(colon + 1)};
 }
 
+// Holds the runtime while the camera is away: the runtime hears when it comes back.
+std::unique_ptr<DepthSource> openReturningOpenNi(const std::string& uri, const SourceOptions& options) {
+  return std::make_unique<ReturningSource>(
+      [uri, options, runtime = OpenNiRuntime::start()] { return openOpenNiCamera(uri, options); });
+}
+
 }  // namespace
 
 std::string checkSourceName(const std::string& name) {
   const auto [kind, rest] = split(name);
   if (kind == "replay") return rest.empty() ? "replay needs a recording: replay:REC" : "";
-  return "'" + name + "' is no source; sources are replay:REC";
+  if (kind == "openni2") return name == "openni2:" ? "openni2: needs a URI, or no colon" : "";
+  return "'" + name + "' is no source; sources are openni2, openni2:URI, replay:REC";
 }
 
 std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOptions& options) {
   const std::string wrong = checkSourceName(name);
   if (!wrong.empty()) throw Error(wrong, "--source");
   const auto [kind, rest] = split(name);
+  if (kind == "openni2") return openReturningOpenNi(std::string(rest), options);
   return std::make_unique<ReplaySource>(openRecording(rest), options.speed);
 }
 

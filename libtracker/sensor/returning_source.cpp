@@ -33,7 +33,8 @@ SourceState ReturningSource::next(SensorFrame& frame, std::chrono::milliseconds 
   const SensorClock::time_point now = SensorClock::now();
   if (state != SourceState::Waiting) last_sign_ = now;
   if (now - last_sign_ > policy_.stall) {
-    return lose(fmt::format("the camera has sent nothing for {} s", std::chrono::duration<double>(policy_.stall).count()));
+    return lose(
+        fmt::format("the camera has sent nothing for {} s", std::chrono::duration<double>(policy_.stall).count()));
   }
   if (state == SourceState::Frame) accept(frame);
   return state;

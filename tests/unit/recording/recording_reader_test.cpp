@@ -123,7 +123,7 @@ TEST(RecordingReader, KnowsTheThirdTumCameraByItsName) {
 TEST(RecordingReader, RefusesOtherThingsByName) {
   const TemporaryFolder folder;
   writeBytes(folder / "session.oni", "");
-  EXPECT_NE(errorOf([&] { openRecording(folder / "session.oni"); }).find("not supported yet"), std::string::npos);
+  EXPECT_NE(errorOf([&] { openRecording(folder / "session.oni"); }).find("no OpenNI recording"), std::string::npos);
   EXPECT_NE(errorOf([&] { openRecording(folder.path()); }).find("neither"), std::string::npos);
   writeBytes(folder / "film.mp4", "");
   EXPECT_NE(errorOf([&] { openRecording(folder / "film.mp4"); }).find("a recording is a folder"), std::string::npos);

@@ -1,0 +1,147 @@
+#include "libtracker/sensor/openni_source.h"
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "libtracker/core/error.h"
+#include "libtracker/openni/openni_stream.h"
+#include "libtracker/recording/undistort.h"
+#include "libtracker/sensor/sensor_clock_map.h"
+
+namespace depthmocap {
+
+namespace {
+
+constexpr const char* kNoCameraAdvice =
+    "check that it is plugged in and has power, that its udev rules let you read it, that the kernel's gspca_kinect "
+    "does not hold it, and that a driver for it lies in OpenNI2/Drivers; docs/cameras.md has more";
+
+std::string_view withoutPort(std::string_view uri) {
+  return uri.substr(0, uri.find('@'));
+}
+
+std::string list(const std::vector<OpenNiDevice>& devices) {
+  std::string text;
+  for (const OpenNiDevice& device : devices) {
+    text += fmt::format("{}{} ({} {})", text.empty() ? "" : ", ", device.uri, device.vendor, device.name);
+  }
+  return text;
+}
+
+// A URI that the runtime does not list is tried as it is: some drivers open what they do not find by themselves.
+std::string findUri(const OpenNiRuntime& runtime, const std::string& wanted) {
+  const std::vector<OpenNiDevice> devices = openNiDevices(runtime);
+  if (wanted.empty()) {
+    if (devices.empty()) throw Error("no camera found", "openni2", kNoCameraAdvice);
+    return devices.front().uri;
+  }
+  for (const OpenNiDevice& device : devices) {
+    if (device.uri == wanted) return wanted;
+  }
+  for (const OpenNiDevice& device : devices) {
+    if (withoutPort(device.uri) == withoutPort(wanted)) return device.uri;
+  }
+  return wanted;
+}
+
+std::unique_ptr<OpenNiStream> openStream(const std::string& wanted, const SourceOptions& options) {
+  std::shared_ptr<OpenNiRuntime> runtime = OpenNiRuntime::start();
+  const std::string uri = findUri(*runtime, wanted);
+  std::optional<OpenNiMode> mode;
+  if (options.mode)
+    mode = {options.mode->width, options.mode->height, static_cast<int>(std::lround(options.mode->fps))};
+  try {
+    return std::make_unique<OpenNiStream>(runtime, uri, mode);
+  } catch (const Error& error) {
+    const std::string found = list(openNiDevices(*runtime));
+    throw Error(error.what(), "openni2", found.empty() ? kNoCameraAdvice : "cameras found: " + found);
+  }
+}
+
+class OpenNiSource : public DepthSource {
+ public:
+  OpenNiSource(std::unique_ptr<OpenNiStream> stream, const SourceOptions& options)
+      : stream_(std::move(stream)), unit_m_(stream_->depthUnit_m()) {
+    info_.camera = stream_->camera();
+    info_.fps = stream_->fps();
+    info_.depth_unit_m = unit_m_;
+    info_.camera_name = stream_->name();
+    info_.note = "recorded through OpenNI2";
+    if (options.camera) useCameraFile(*options.camera);
+  }
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+  [[nodiscard]] std::string problem() const override { return problem_; }
+  SourceState next(SensorFrame& frame, std::chrono::milliseconds timeout) override;
+
+ private:
+  void useCameraFile(const RecordingInfo& file);
+  void number(SensorFrame& frame);
+
+  std::unique_ptr<OpenNiStream> stream_;
+  double unit_m_;
+  RecordingInfo info_;
+  std::vector<std::int32_t> undistortion_;  // empty: none
+  OpenNiFrame raw_;
+  SensorClockMap clock_;
+  std::string problem_;
+  bool first_ = true;
+  std::int64_t first_index_ = 0;
+  double first_time_s_ = 0;
+  std::int64_t last_number_ = -1;
+  double last_time_s_ = 0;
+};
+
+void OpenNiSource::useCameraFile(const RecordingInfo& file) {
+  if (file.camera.width != info_.camera.width || file.camera.height != info_.camera.height) {
+    throw Error(fmt::format("describes pictures of {}x{}, the camera's are {}x{}", file.camera.width,
+                            file.camera.height, info_.camera.width, info_.camera.height),
+                "--camera");
+  }
+  info_.camera = file.camera;
+  if (file.camera.hasDistortion()) undistortion_ = undistortionMap(file.camera);
+}
+
+SourceState OpenNiSource::next(SensorFrame& frame, std::chrono::milliseconds timeout) {
+  if (stream_->lost()) {
+    problem_ = "the camera was unplugged";
+    return SourceState::Lost;
+  }
+  try {
+    if (!stream_->read(raw_, timeout)) return SourceState::Waiting;
+  } catch (const Error& error) {
+    problem_ = error.what();
+    return SourceState::Damaged;
+  }
+  frame.taken = SensorClock::now();  // arrival; number() corrects it
+  number(frame);
+  toMetres(raw_.steps, unit_m_, undistortion_, frame.depth.depth);
+  return SourceState::Frame;
+}
+
+// Indices and times from 0. Drivers that do not count, or whose clock stands still, are counted and timed here.
+void OpenNiSource::number(SensorFrame& frame) {
+  const SensorClock::time_point arrived = frame.taken;
+  if (std::exchange(first_, false)) {
+    first_index_ = raw_.index;
+    first_time_s_ = raw_.time_s;
+  }
+  const std::int64_t count = raw_.index - first_index_;
+  double time_s = raw_.time_s - first_time_s_;
+  if (last_number_ >= 0 && !(time_s > last_time_s_)) time_s = last_time_s_ + 1.0 / info_.fps;
+  frame.depth.frame = count > last_number_ ? count : last_number_ + 1;
+  frame.depth.time_s = time_s;
+  frame.taken = clock_.taken(time_s, arrived);
+  last_number_ = frame.depth.frame;
+  last_time_s_ = time_s;
+}
+
+}  // namespace
+
+std::unique_ptr<DepthSource> openOpenNiCamera(const std::string& uri, const SourceOptions& options) {
+  return std::make_unique<OpenNiSource>(openStream(uri, options), options);
+}
+
+}  // namespace depthmocap
