@@ -1,6 +1,5 @@
 #include "forest/train/rendered_image_source.h"
 
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,22 +9,13 @@
 #include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"
+#include "libtracker/skeleton/facing_of.h"
 
 namespace depthmocap {
 namespace {
 
 constexpr std::uint64_t kBodyStream = 0x424F;
 constexpr std::uint64_t kViewStream = 0x5649;
-
-// The camera stands above the world's origin; a heading of 0 faces +z with the left along +x.
-Facing facingOf(const TrainingView& view) {
-  const double heading = view.q_world[kRootRy];
-  const Eigen::Vector2d to_camera(-view.q_world[kRootTx], -view.q_world[kRootTz]);
-  const double front = to_camera.dot(Eigen::Vector2d(std::sin(heading), std::cos(heading)));
-  const double left = to_camera.dot(Eigen::Vector2d(std::cos(heading), -std::sin(heading)));
-  if (std::abs(front) >= std::abs(left)) return front > 0 ? Facing::Front : Facing::Back;
-  return left > 0 ? Facing::Left : Facing::Right;
-}
 
 // An actor who is asked for a T-pose looks at the camera and stands in view.
 void askForTPose(TrainingViewConfig& view) {
@@ -77,7 +67,7 @@ void RenderedImageSource::render(std::size_t i, TrainingImage& image) {
   image.depth = std::move(view.depth);
   image.labels = std::move(view.parts);
   image.focal_px = view.camera.fx;
-  image.facing = facingOf(view);
+  image.facing = facingOf(view.q_world);
 }
 
 std::unique_ptr<TrainingViewRenderer> RenderedImageSource::takeRenderer() {

@@ -1,12 +1,14 @@
 #include "libtracker/tracker/dense_refinement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
 namespace depthmocap {
 namespace {
 
+constexpr std::size_t kMisfitSamples = 80;
 constexpr double kMinExtent_m = 1.0;      // less of a person's height says nothing about the size
 constexpr double kTrimmedShare = 0.0005;  // of the pixels at either end: stray ones
 
@@ -28,8 +30,9 @@ double trimmedExtent(std::vector<float>& values) {
 
 }  // namespace
 
-void DenseRefinement::observe(const ClassifiedPixels& pixels, const CameraModel& camera,
-                              const Eigen::Matrix3d& R_world_camera) {
+void DenseRefinement::observe(const ClassifiedPixels& pixels, const DepthImage& depth, const MaskImage& mask,
+                              const CameraModel& camera, const Eigen::Matrix3d& R_world_camera) {
+  free_space_.observe(depth, mask, camera, R_world_camera);
   samples_.clear();
   const std::size_t count = pixels.pixels.size();
   const std::size_t wanted = std::min<std::size_t>(count, kMaxSurfaceMatches);
@@ -65,14 +68,26 @@ double DenseRefinement::extentRatio(const SurfaceModel& surface, const ActorMode
   return highest > lowest ? observed_extent_m_ / (kSeenShare * static_cast<double>(highest - lowest)) : 0;
 }
 
+void DenseRefinement::place(const SurfaceModel& surface, const ActorModel& actor, const Pose& q) {
+  fk_.update(actor.skeleton, q);
+  placed_.place(surface, statureOf(actor.skeleton.lengths) / surface.stature_m, fk_);
+}
+
+double DenseRefinement::misfit(const SurfaceModel& surface, const ActorModel& actor, const Pose& q) {
+  if (surface.stature_m <= 0) return 0;
+  place(surface, actor, q);
+  return std::sqrt(surfaceMisfit(placed_, samples_, kMisfitSamples, kMisfitLimit_m) +
+                   free_space_.misfit(placed_, kMisfitLimit_m));
+}
+
 void DenseRefinement::refine(const SurfaceModel& surface, const ActorModel& actor, MapInput input, MapSolver& solver,
                              Pose& q, MapSummary& summary) {
   if (surface.stature_m <= 0) return;
-  const double scale = statureOf(actor.skeleton.lengths) / surface.stature_m;
   int iterations = summary.iterations;
   for (int round = 0; round < rounds_; ++round) {
-    fk_.update(actor.skeleton, q);
-    matcher_.match(surface, scale, fk_, samples_, matches_);
+    place(surface, actor, q);
+    matcher_.match(placed_, samples_, matches_);
+    free_space_.match(placed_, matches_);
     input.surface = &matches_;
     summary = solver.solve(input, q);
     iterations += summary.iterations;

@@ -4,11 +4,13 @@
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/prior/local_prior_builder.h"
 #include "libtracker/segment/segment.h"
+#include "libtracker/skeleton/facing_of.h"
 #include "libtracker/solve/size_estimate.h"
 #include "libtracker/tracker/alignment.h"
 #include "libtracker/tracker/dense_refinement.h"
 #include "libtracker/tracker/global_search.h"
 #include "libtracker/tracker/joint_confidence.h"
+#include "libtracker/tracker/side_expectation.h"
 #include "libtracker/tracker/size_adapter.h"
 #include "libtracker/tracker/stage_clock.h"
 #include "libtracker/tracker/track_history.h"
@@ -42,12 +44,12 @@ struct Tracker::Stages {
         prior_builder(config.prior),
         solver(config.solve),
         global(config.prior.neighbours.back(), config.policy.start_poses),
-        dense(config.surface, config.policy.dense_rounds) {}
+        dense(config.surface, config.free_space, config.policy.dense_rounds) {}
 
   void begin(const DepthFrame& frame);
   void predict();
   void buildPrior();
-  void solve();
+  void solve(const DepthImage& depth);
   bool solveFirst();
   bool solveNext();
   void finish();
@@ -77,6 +79,8 @@ struct Tracker::Stages {
   bool predicted = false;
   Pose q_predicted = Pose::Zero();
   MarkerSet predicted_camera;
+  JointPositions joints_predicted_camera;
+  ClassifyConfig classify_config = config.classify;  // with what is known of the facing
   Eigen::Vector3d predicted_centroid_camera = Eigen::Vector3d::Zero();
   Segmentation segmentation;
   ClassifyMemory classify_memory;
@@ -101,11 +105,17 @@ void Tracker::Stages::begin(const DepthFrame& frame) {
 
 // Where the markers are expected, from the poses before.
 void Tracker::Stages::predict() {
+  classify_config.facing_prior = config.classify.facing_prior;
   predicted = history.hasPose();
   if (!predicted) return;
   q_predicted = history.predicted(out.time_s);
+  if (config.policy.expect_sides) classify_config.facing_prior = expectedFacing(q_predicted);
   predicted_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), q_predicted, fk));
   predicted_centroid_camera = predicted_camera.position.col(partIndex(Part::Torso));
+  const auto points = jointPoints(size.actor().skeleton);
+  for (int j = 0; j < kJointCount; ++j) {
+    joints_predicted_camera.col(j) = R_world_camera.transpose() * fk.position(points[static_cast<std::size_t>(j)]);
+  }
 }
 
 // (3) and (4): the nearest poses and the local model. Without history the global search does both.
@@ -122,8 +132,8 @@ void Tracker::Stages::buildPrior() {
   prior_builder.build(models->database, neighbours, prior);
 }
 
-void Tracker::Stages::solve() {
-  dense.observe(pixels, camera, R_world_camera);
+void Tracker::Stages::solve(const DepthImage& depth) {
+  dense.observe(pixels, depth, segmentation.mask, camera, R_world_camera);
   const bool enough = markers_world.seenCount() >= config.policy.min_markers;
   const bool found = enough && (predicted ? solveNext() : solveFirst());
   if (!found) history.miss(out.time_s, config.policy.coast_s);
@@ -223,8 +233,10 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame) {
   clock.lap(&StageTimes::segment);
 
   // (1) a body part for each pixel
-  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.config.classify, s.classify_memory,
+  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.classify_config, s.classify_memory,
            s.pixels);
+  if (s.predicted && s.config.policy.expect_sides)
+    expectSides(s.joints_predicted_camera, s.camera, s.config.threads, s.pixels);
   labelImage(s.pixels, s.segmentation.mask, s.out.labels);
   clock.lap(&StageTimes::classify);
 
@@ -239,7 +251,7 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame) {
   clock.lap(&StageTimes::prior);
 
   // (5) maximum a posteriori pose
-  s.solve();
+  s.solve(frame.depth);
   s.finish();
   clock.lap(&StageTimes::solve);
   return s.out;

@@ -16,7 +16,7 @@ void require(bool holds, const char* rule) {
 MapConfig measuredWeights() {
   MapConfig weights;
   weights.lambda_prior = 30.0;
-  weights.lambda_smooth = 10.0;
+  weights.lambda_smooth = 20.0;
   weights.velocity_share = 0.8;
   weights.lambda_surface = 2.0;
   return weights;
@@ -26,6 +26,7 @@ TrackerConfig paperConfig() {
   TrackerConfig config;
   config.solve = MapConfig{};
   config.policy.dense_rounds = 0;
+  config.policy.expect_sides = false;
   return config;
 }
 
@@ -48,6 +49,7 @@ void TrackerConfig::validate() const {
   prior.validate();
   solve.validate();
   surface.validate();
+  free_space.validate();
   policy.validate();
   if (classify.stride < 1) throw Error("stride must be at least 1", "ClassifyConfig");
   if (threads < 1) throw Error("threads must be at least 1", "TrackerConfig");

@@ -4,6 +4,7 @@
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/prior/local_prior.h"
 #include "libtracker/segment/segment.h"
+#include "libtracker/solve/free_space_matcher.h"
 #include "libtracker/solve/map_solver.h"
 #include "libtracker/solve/surface_matcher.h"
 
@@ -12,12 +13,13 @@ namespace depthmocap {
 // When a pose is believed, carried on, given up and looked for again.
 struct TrackPolicy {
   int min_markers = 5;           // (1 .. 15) fewer seen markers are not enough evidence for a pose
-  double max_rms_m = 0.10;       // [m] a worse fit of the seen markers is not believed
+  double max_rms_m = 0.15;       // [m] a worse fit of the seen markers is not believed
   double suspect_rms_m = 0.065;  // [m] above it a global search competes with the tracked pose
   double switch_gain = 0.6;      // (0 .. 1) the global pose wins if its energy is below this share of the tracked one's
   double coast_s = 0.4;          // [s] a pose is carried on without evidence, then the actor is lost
   int start_poses = 6;           // (>= 1) database poses a global search solves from
   int dense_rounds = 3;          // (>= 0) of matching depth with the body's surface; 0 = markers only, the paper
+  bool expect_sides = true;      // the pose before tells left from right in the classifier's answer; false: the paper
   double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
   double adapt_s = 3.0;             // [s] of good frames over which an uncalibrated actor's size is fitted
   void validate() const;
@@ -36,12 +38,13 @@ struct TrackerConfig {
   PriorConfig prior;
   MapConfig solve = measuredWeights();
   SurfaceMatchConfig surface;
+  FreeSpaceConfig free_space;
   TrackPolicy policy;
   int threads = 2;  // (>= 1) for the stages that can use them
   void validate() const;
 };
 
-// The method as the paper gives it: its weights, no dense term.
+// The method as the paper gives it: its weights, no dense term, each image classified by itself.
 TrackerConfig paperConfig();
 
 }  // namespace depthmocap

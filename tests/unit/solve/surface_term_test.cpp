@@ -35,6 +35,11 @@ struct ChestScene {
     surface.parts[static_cast<std::size_t>(partIndex(Part::Torso))].push_back(
         {Bone::UpperBack, {0.0F, 0.1F, -0.12F}, {0.0F, 0.0F, -1.0F}});
   }
+  PlacedSurface placed() const {
+    PlacedSurface result;
+    result.place(surface, 1.0, fk);
+    return result;
+  }
   SurfaceSample sampleAhead(float ahead_m) const {
     SurfaceSample sample;
     sample.p_world = (fk.origin(Bone::UpperBack)).cast<float>() + Eigen::Vector3f(0.0F, 0.1F, 0.12F + ahead_m);
@@ -84,7 +89,7 @@ TEST(SurfaceMatcher, TakesThePointThatFacesTheCamera) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.match(scene.surface, 1.0, scene.fk, {scene.sampleAhead(0.01F)}, matches);
+  matcher.match(scene.placed(), {scene.sampleAhead(0.01F)}, matches);
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_NEAR(matches[0].model.p_bone.z(), 0.12, 1e-6);
   EXPECT_NEAR(matches[0].n_world.z(), 1.0, 1e-6);
@@ -94,7 +99,7 @@ TEST(SurfaceMatcher, LeavesOutWhatIsFarAway) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.match(scene.surface, 1.0, scene.fk, {scene.sampleAhead(0.5F)}, matches);
+  matcher.match(scene.placed(), {scene.sampleAhead(0.5F)}, matches);
   EXPECT_TRUE(matches.empty());
 }
 
@@ -102,10 +107,27 @@ TEST(SurfaceMatcher, WeighsADistantMatchLess) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.match(scene.surface, 1.0, scene.fk, {scene.sampleAhead(0.0F), scene.sampleAhead(0.1F)}, matches);
+  matcher.match(scene.placed(), {scene.sampleAhead(0.0F), scene.sampleAhead(0.1F)}, matches);
   ASSERT_EQ(matches.size(), 2U);
   EXPECT_GT(matches[0].weight, 0.99);
   EXPECT_LT(matches[1].weight, 0.5);
+}
+
+TEST(SurfaceMatcher, LooksAtNoMoreSamplesThanAsked) {
+  const ChestScene scene;
+  SurfaceMatchConfig config;
+  config.max_matches = 5;
+  SurfaceMatcher matcher{config};
+  SurfaceMatches matches;
+  matcher.match(scene.placed(), std::vector<SurfaceSample>(40, scene.sampleAhead(0.0F)), matches);
+  EXPECT_EQ(matches.size(), 5U);
+}
+
+TEST(SurfaceMisfit, IsTheMeanSquareDistanceUpToItsLimit) {
+  const ChestScene scene;
+  const std::vector<SurfaceSample> samples{scene.sampleAhead(0.03F), scene.sampleAhead(5.0F)};
+  EXPECT_NEAR(surfaceMisfit(scene.placed(), samples, 2, 0.1), (0.03 * 0.03 + 0.1 * 0.1) / 2, 1e-6);
+  EXPECT_EQ(surfaceMisfit(scene.placed(), {}, 2, 0.1), 0.0);
 }
 
 }  // namespace
