@@ -8,6 +8,7 @@
 #include "libtracker/sensor/openni_source.h"
 #include "libtracker/sensor/replay_source.h"
 #include "libtracker/sensor/returning_source.h"
+#include "libtracker/sensor/v4l2_source.h"
 
 namespace depthmocap {
 
@@ -36,7 +37,8 @@ std::string checkSourceName(const std::string& name) {
   const auto [kind, rest] = split(name);
   if (kind == "replay") return rest.empty() ? "replay needs a recording: replay:REC" : "";
   if (kind == "openni2") return name == "openni2:" ? "openni2: needs a URI, or no colon" : "";
-  return "'" + name + "' is no source; sources are openni2, openni2:URI, replay:REC";
+  if (kind == "v4l2") return rest.empty() ? "v4l2 needs a device: v4l2:/dev/video0" : "";
+  return "'" + name + "' is no source; sources are openni2, openni2:URI, v4l2:/dev/videoN, replay:REC";
 }
 
 std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOptions& options) {
@@ -44,6 +46,10 @@ std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOpt
   if (!wrong.empty()) throw Error(wrong, "--source");
   const auto [kind, rest] = split(name);
   if (kind == "openni2") return openReturningOpenNi(std::string(rest), options);
+  if (kind == "v4l2") {
+    return std::make_unique<ReturningSource>(
+        [path = std::string(rest), options] { return openV4l2Camera(path, options); });
+  }
   return std::make_unique<ReplaySource>(openRecording(rest), options.speed);
 }
 

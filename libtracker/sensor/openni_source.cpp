@@ -9,6 +9,7 @@
 #include "libtracker/core/error.h"
 #include "libtracker/openni/openni_stream.h"
 #include "libtracker/recording/undistort.h"
+#include "libtracker/sensor/camera_calibration.h"
 #include "libtracker/sensor/sensor_clock_map.h"
 
 namespace depthmocap {
@@ -70,14 +71,13 @@ class OpenNiSource : public DepthSource {
     info_.depth_unit_m = unit_m_;
     info_.camera_name = stream_->name();
     info_.note = "recorded through OpenNI2";
-    if (options.camera) useCameraFile(*options.camera);
+    undistortion_ = calibrate(options.camera, info_);
   }
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
   [[nodiscard]] std::string problem() const override { return problem_; }
   SourceState next(SensorFrame& frame, std::chrono::milliseconds timeout) override;
 
  private:
-  void useCameraFile(const RecordingInfo& file);
   void number(SensorFrame& frame);
 
   std::unique_ptr<OpenNiStream> stream_;
@@ -93,16 +93,6 @@ class OpenNiSource : public DepthSource {
   std::int64_t last_number_ = -1;
   double last_time_s_ = 0;
 };
-
-void OpenNiSource::useCameraFile(const RecordingInfo& file) {
-  if (file.camera.width != info_.camera.width || file.camera.height != info_.camera.height) {
-    throw Error(fmt::format("describes pictures of {}x{}, the camera's are {}x{}", file.camera.width,
-                            file.camera.height, info_.camera.width, info_.camera.height),
-                "--camera");
-  }
-  info_.camera = file.camera;
-  if (file.camera.hasDistortion()) undistortion_ = undistortionMap(file.camera);
-}
 
 SourceState OpenNiSource::next(SensorFrame& frame, std::chrono::milliseconds timeout) {
   if (stream_->lost()) {

@@ -1,0 +1,110 @@
+#include "libtracker/sensor/v4l2_source.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "libtracker/recording/undistort.h"
+#include "libtracker/sensor/camera_calibration.h"
+#include "libtracker/sensor/sensor_clock_map.h"
+#include "libtracker/sensor/v4l2_stream.h"
+
+namespace depthmocap {
+
+namespace {
+
+constexpr double kFocalLength = 575.8 / 640;  // of the width: the Kinect of 2010 and its relatives
+
+// What is known of a camera by the size of its pictures alone. One copy of a Kinect of 2013 differs from the next by a
+// pixel or two.
+CameraModel usualCamera(const V4l2Format& format) {
+  CameraModel camera;
+  camera.width = format.width;
+  camera.height = format.height;
+  if (format.width == 512 && format.height == 424) {
+    camera.fx = camera.fy = 365.456;
+    camera.cx = 254.878;
+    camera.cy = 205.395;
+    camera.distortion = {0.0905474, -0.26819, 0, 0, 0.0950862};
+    return camera;
+  }
+  camera.fx = camera.fy = kFocalLength * format.width;
+  camera.cx = (format.width - 1) / 2.0;
+  camera.cy = (format.height - 1) / 2.0;
+  return camera;
+}
+
+double unitOf(const SourceOptions& options, std::uint32_t fourcc) {
+  if (options.depth_unit_m) return *options.depth_unit_m;
+  return options.camera ? options.camera->depth_unit_m : defaultDepthUnit_m(fourcc);
+}
+
+class V4l2Source : public DepthSource {
+ public:
+  V4l2Source(const std::string& path, const SourceOptions& options, V4l2System& system)
+      : stream_(system, path, options), raw_values_(options.depth_unit_m.has_value()) {
+    info_.camera = usualCamera(stream_.format());
+    undistortion_ = calibrate(options.camera, info_);
+    info_.fps = stream_.fps();
+    info_.depth_unit_m = unitOf(options, stream_.format().fourcc);
+    info_.camera_name = stream_.name();
+    info_.note = "recorded through V4L2, " + fourccName(stream_.format().fourcc);
+  }
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+  [[nodiscard]] std::string problem() const override { return stream_.problem(); }
+  SourceState next(SensorFrame& frame, std::chrono::milliseconds timeout) override;
+
+ private:
+  void number(const V4l2Picture& picture, SensorFrame& frame);
+
+  V4l2Stream stream_;
+  bool raw_values_;  // the user's unit is of the camera's own numbers
+  RecordingInfo info_;
+  std::vector<std::int32_t> undistortion_;  // empty: none
+  Image<std::uint16_t> steps_;
+  SensorClockMap clock_;
+  bool first_ = true;
+  std::uint32_t first_sequence_ = 0;
+  double first_time_s_ = 0;
+  std::int64_t last_number_ = -1;
+  double last_time_s_ = 0;
+};
+
+SourceState V4l2Source::next(SensorFrame& frame, std::chrono::milliseconds timeout) {
+  V4l2Picture picture;
+  const SourceState state = stream_.next(picture, timeout);
+  if (state != SourceState::Frame) return state;
+  number(picture, frame);
+  unpack(stream_.format(), picture.bytes, raw_values_, steps_);
+  toMetres(steps_, info_.depth_unit_m, undistortion_, frame.depth.depth);
+  return SourceState::Frame;
+}
+
+// Numbers and times from 0. Drivers that do not count, or give no time, are counted and timed here. The driver's count
+// may run over.
+void V4l2Source::number(const V4l2Picture& picture, SensorFrame& frame) {
+  const SensorClock::time_point arrived = SensorClock::now();
+  if (std::exchange(first_, false)) {
+    first_sequence_ = picture.sequence;
+    first_time_s_ = picture.time_s;
+  }
+  const auto count = static_cast<std::int64_t>(picture.sequence - first_sequence_);
+  double time_s = picture.time_s - first_time_s_;
+  const bool timed = last_number_ < 0 || time_s > last_time_s_;
+  if (!timed) time_s = last_time_s_ + 1.0 / info_.fps;
+  frame.depth.frame = count > last_number_ ? count : last_number_ + 1;
+  frame.depth.time_s = time_s;
+  const SensorClock::time_point stamped(
+      std::chrono::duration_cast<SensorClock::duration>(std::chrono::duration<double>(picture.time_s)));
+  // steady_clock is the kernel's monotonic clock.
+  frame.taken = picture.monotonic && timed ? std::min(stamped, arrived) : clock_.taken(time_s, arrived);
+  last_number_ = frame.depth.frame;
+  last_time_s_ = time_s;
+}
+
+}  // namespace
+
+std::unique_ptr<DepthSource> openV4l2Camera(const std::string& path, const SourceOptions& options, V4l2System& system) {
+  return std::make_unique<V4l2Source>(path, options, system);
+}
+
+}  // namespace depthmocap
