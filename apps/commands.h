@@ -7,12 +7,14 @@ class App;
 // Each adds one command to the program. Its callback does the work: results to stdout or files, Error on failure.
 namespace depthmocap {
 
+void addCalibrateCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addForestCommand(CLI::App& app);
 void addLiveCommand(CLI::App& app);
 void addPosedbCommand(CLI::App& app);
 void addRecordCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
+void addShapeSpaceCommand(CLI::App& app);
 void addSynthesizeCommand(CLI::App& app);
 
 }  // namespace depthmocap

@@ -21,9 +21,11 @@ void addCommands(CLI::App& app) {
   addReplayCommand(app);
   addLiveCommand(app);
   addRecordCommand(app);
+  addCalibrateCommand(app);
   addEvaluateCommand(app);
   addForestCommand(app);
   addPosedbCommand(app);
+  addShapeSpaceCommand(app);
   addSynthesizeCommand(app);
 }
 

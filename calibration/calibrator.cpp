@@ -1,0 +1,269 @@
+#include "calibration/calibrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "calibration/fit_limbs.h"
+#include "calibration/pose_observation.h"
+#include "calibration/tpose_prior.h"
+#include "libtracker/core/check.h"
+#include "libtracker/core/error.h"
+#include "libtracker/core/parallel.h"
+#include "libtracker/markers/find_markers.h"
+#include "libtracker/segment/segment.h"
+#include "libtracker/tracker/alignment.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr int kFewestParts = 13;         // of the 15 markers that a good frame shows
+constexpr double kRivalShare = 0.35;     // of the actor's pixels: less is no second person
+constexpr double kTwoPeopleShare = 0.3;  // of the frames with a T-pose
+constexpr double kMinRivalHeight_m = 1.0;
+constexpr std::size_t kFewestPixels = 300;  // classified, of an actor
+constexpr int kStride_px = 2;
+
+// A good frame, kept until the solve.
+struct GoodFrame {
+  DepthFrame frame;
+  MaskImage mask;
+  BodyOutline outline;
+  std::vector<CloudPoint> cloud;  // T-pose forest
+  MarkerSet markers_world;        // of the tracker's forest
+  std::optional<Eigen::Vector4d> floor_world;
+  double deviation = 0;  // [rad]
+};
+
+std::vector<Eigen::Vector3f> positions(const std::vector<CloudPoint>& cloud) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(cloud.size());
+  for (const CloudPoint& point : cloud) points.push_back(point.p_world);
+  return points;
+}
+
+}  // namespace
+
+void CalibratorConfig::validate() const {
+  const auto require = [](bool holds, const char* rule) {
+    if (!holds) throw Error(rule, "calibration");
+  };
+  check.validate();
+  require(frames >= 1, "frames must be at least 1");
+  require(!stature_m || (*stature_m >= 1.0 && *stature_m <= 2.3), "stature_m must lie between 1.0 and 2.3");
+  require(surface_points >= 100, "surface_points must be at least 100");
+  require(points_per_part >= 5, "points_per_part must be at least 5");
+  require(threads >= 1, "threads must be at least 1");
+}
+
+struct Calibrator::Impl {
+  Impl(std::shared_ptr<const CalibratorModels> m, const CameraModel& c, const CalibratorConfig& cfg)
+      : models(std::move(m)),
+        camera(c),
+        config(cfg),
+        segmenter(SegmentConfig{}),
+        finder(MarkerConfig{}),
+        templates{BodyTemplate(Sex::Male, cfg.surface_points), BodyTemplate(Sex::Female, cfg.surface_points)} {
+    classify_config.stride = kStride_px;
+    classify_config.threads = config.threads;
+  }
+
+  TPoseVerdict judge(const DepthFrame& frame);
+  bool secondPerson(const DepthFrame& frame);
+  MarkerSet markersBy(const Forest& forest, const DepthFrame& frame, double stature_m);
+  void keep(GoodFrame good);
+  [[nodiscard]] PoseObservation observationOf(const GoodFrame& good, const ShapeVector& shape) const;
+  CalibratedActor fit(const std::vector<const GoodFrame*>& frames);
+  [[noreturn]] void refuse() const;
+
+  const std::shared_ptr<const CalibratorModels> models;
+  const CameraModel camera;
+  const CalibratorConfig config;
+  const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
+  ClassifyConfig classify_config;
+  Segmenter segmenter;
+  MarkerFinder finder;
+  const std::array<BodyTemplate, 2> templates;
+
+  Segmentation segmentation;
+  Segmentation rival;
+  ClassifyMemory memory;
+  ClassifiedPixels pixels;
+  std::vector<GoodFrame> good;
+  int good_count = 0;
+  int frame_count = 0;
+  std::map<TPoseFault, std::pair<int, std::string>> faults;  // how often, and the last advice
+  Shown shown;
+};
+
+TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
+  segmenter.segment(frame.depth, camera, nullptr, segmentation);
+  classify(models->tpose, frame.depth, segmentation.mask, camera.fx, classify_config, memory, pixels);
+  if (pixels.pixels.size() < kFewestPixels) return {TPoseFault::Nobody, "nobody is in view", 0};
+  GoodFrame candidate;
+  candidate.cloud = cloudOf(pixels, camera);
+  candidate.outline = measureOutline(positions(candidate.cloud));
+  TPoseVerdict verdict = checkTPose(segmentation.mask, candidate.outline, config.check);
+  if (!verdict.good()) return verdict;
+  const double stature = candidate.outline.height();
+  candidate.markers_world = markersBy(models->general, frame, stature);
+  const MarkerSet tpose_markers = markersBy(models->tpose, frame, stature);
+  if (tpose_markers.seenCount() < kFewestParts) {
+    return {TPoseFault::PartsMissing, "not all body parts are recognised: stand freely, away from furniture", 0};
+  }
+  if (secondPerson(frame)) return {TPoseFault::TwoPeople, "two people are in view: only one may be", 0};
+  candidate.frame = frame;
+  candidate.mask = segmentation.mask;
+  candidate.deviation = verdict.deviation;
+  if (segmentation.floor_camera) {
+    Eigen::Vector4d floor = *segmentation.floor_camera;
+    floor.head<3>() = R_world_camera * floor.head<3>();
+    candidate.floor_world = floor;
+  }
+  keep(std::move(candidate));
+  return verdict;
+}
+
+// A person is left when the actor is taken out of the picture.
+bool Calibrator::Impl::secondPerson(const DepthFrame& frame) {
+  DepthImage rest = frame.depth;
+  for (std::size_t i = 0; i < rest.data.size(); ++i) {
+    if (segmentation.mask.data[i] != 0) rest.data[i] = 0.0F;
+  }
+  Segmenter other{SegmentConfig{}};
+  other.segment(rest, camera, nullptr, rival);
+  if (rival.pixel_count < kRivalShare * segmentation.pixel_count) return false;
+  float top = 1e9F;
+  float bottom = -1e9F;
+  for (int y = 0; y < rest.height; ++y) {
+    for (int x = 0; x < rest.width; ++x) {
+      if (rival.mask.at(x, y) == 0 || rest.at(x, y) <= 0) continue;
+      const auto p = camera.unproject(x, y, static_cast<double>(rest.at(x, y)));
+      top = std::min(top, static_cast<float>(p.y()));
+      bottom = std::max(bottom, static_cast<float>(p.y()));
+    }
+  }
+  return static_cast<double>(bottom - top) > kMinRivalHeight_m;
+}
+
+MarkerSet Calibrator::Impl::markersBy(const Forest& forest, const DepthFrame& frame, double stature_m) {
+  ClassifiedPixels classified;
+  classify(forest, frame.depth, segmentation.mask, camera.fx, classify_config, memory, classified);
+  MarkerSet markers_camera;
+  const auto radii = averagePartRadii(makeSkeleton(averageBoneLengths(stature_m)));
+  finder.find(classified, camera, radii, nullptr, markers_camera);
+  return rotated(R_world_camera, markers_camera);
+}
+
+// Keeps the frames closest to a T-pose.
+void Calibrator::Impl::keep(GoodFrame candidate) {
+  ++good_count;
+  good.push_back(std::move(candidate));
+  if (static_cast<int>(good.size()) <= config.frames) return;
+  good.erase(std::max_element(good.begin(), good.end(),
+                              [](const auto& a, const auto& b) { return a.deviation < b.deviation; }));
+}
+
+PoseObservation Calibrator::Impl::observationOf(const GoodFrame& g, const ShapeVector& shape) const {
+  PoseObservation observation;
+  observation.cloud = thinned(g.cloud, config.points_per_part);
+  observation.markers_world = g.markers_world;
+  const Eigen::Vector3d left = (g.outline.left_hand - g.outline.right_hand).normalized();
+  observation.boundaries = tposeBoundaries(g.cloud, left, Eigen::Vector3d::UnitY());
+  observation.ends = tposeEnds(g.mask, camera, g.markers_world, g.floor_world ? &*g.floor_world : nullptr);
+  setTPosePrior(boneLengths(shape), g.outline, observation);
+  return observation;
+}
+
+CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frames) {
+  const GoodFrame& first = *frames.front();
+  shown.limbs = fitLimbs(first.cloud, first.outline);
+  std::array<JointSolution, 2> solutions;
+  parallelFor(config.threads, templates.size(), [&](std::size_t i) {
+    const ShapeVector start = startShape(templates[i], first.outline, shown.limbs);
+    std::vector<PoseObservation> observations;
+    for (const GoodFrame* frame : frames) observations.push_back(observationOf(*frame, start));
+    solutions[i] = solveJointly(templates[i], models->space, observations, start, config.solve);
+  });
+  const std::size_t best = solutions[1].cost < solutions[0].cost ? 1 : 0;
+  const JointSolution& solution = solutions[best];
+  CalibratedActor actor;
+  actor.sex = best == 0 ? Sex::Male : Sex::Female;
+  actor.shape = solution.shape;
+  actor.model = actorOfShape(templates[best], solution.shape);
+  actor.model.markers = solution.markers;
+  setRadii(shown.limbs, actor);
+  actor.fit.tpose_frames = static_cast<int>(frames.size());
+  actor.fit.surface_m = solution.rms_surface_m;
+  actor.fit.marker_m = solution.rms_marker_m;
+  actor.fit.confidence = fitConfidence(solution);
+  shown.frame = first.frame;
+  shown.mask = first.mask;
+  shown.q = solution.poses.front();
+  return actor;
+}
+
+void Calibrator::Impl::refuse() const {
+  const char* advice = "stand alone, whole in view and facing the camera, both arms stretched out level to the sides";
+  if (frame_count < config.frames) {
+    throw Error(
+        fmt::format("{} frames are too few for a calibration, which needs {} good ones", frame_count, config.frames),
+        "calibration", "record at least one second of T-pose");
+  }
+  const auto worst = std::max_element(faults.begin(), faults.end(),
+                                      [](const auto& a, const auto& b) { return a.second.first < b.second.first; });
+  std::string why;
+  if (worst != faults.end()) {
+    why = fmt::format("; most often ({} of {}): {}", worst->second.first, frame_count, worst->second.second);
+  }
+  throw Error(fmt::format("only {} of the {} frames needed show a T-pose{}", good_count, config.frames, why),
+              "calibration", advice);
+}
+
+Calibrator::Calibrator(std::shared_ptr<const CalibratorModels> models, const CameraModel& camera,
+                       const CalibratorConfig& config) {
+  config.validate();
+  impl_ = std::make_unique<Impl>(std::move(models), camera, config);
+}
+
+Calibrator::~Calibrator() = default;
+
+TPoseVerdict Calibrator::add(const DepthFrame& frame) {
+  ++impl_->frame_count;
+  TPoseVerdict verdict = impl_->judge(frame);
+  if (!verdict.good()) {
+    auto& [count, advice] = impl_->faults[verdict.fault];
+    ++count;
+    advice = verdict.advice;
+  }
+  return verdict;
+}
+
+int Calibrator::goodFrames() const {
+  return impl_->good_count;
+}
+
+bool Calibrator::enough() const {
+  return impl_->good_count >= impl_->config.frames;
+}
+
+CalibratedActor Calibrator::solve() {
+  Impl& s = *impl_;
+  const auto two = s.faults.find(TPoseFault::TwoPeople);
+  if (two != s.faults.end() && two->second.first > kTwoPeopleShare * (two->second.first + s.good_count)) {
+    throw Error("two people are in view", "calibration", "let only the actor stand before the camera");
+  }
+  if (!enough()) s.refuse();
+  std::vector<const GoodFrame*> frames;
+  for (const GoodFrame& frame : s.good) frames.push_back(&frame);
+  return s.fit(frames);
+}
+
+const Calibrator::Shown& Calibrator::shown() const {
+  return impl_->shown;
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,71 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibrated_actor.h"
+#include "calibration/joint_solve.h"
+#include "calibration/limb_shapes.h"
+#include "calibration/shape_space.h"
+#include "calibration/tpose_check.h"
+#include "libtracker/classify/forest.h"
+#include "libtracker/core/depth_frame.h"
+
+namespace depthmocap {
+
+struct CalibratorConfig {
+  int frames = 10;  // (>= 1) good frames that a calibration needs and uses
+  TPoseCheckConfig check;
+  JointSolveConfig solve;
+  std::optional<double> stature_m;  // [m] (1.0 .. 2.3) known: fixes the scale
+  int surface_points = 1500;        // (>= 100) of the template
+  int points_per_part = 30;         // (>= 5) of the cloud of one frame
+  int threads = 2;                  // (>= 1)
+  void validate() const;            // throws Error naming field, value and rule
+};
+
+struct CalibratorModels {
+  Forest tpose;    // knows the parts of a T-pose
+  Forest general;  // the tracker's: markers are calibrated as the tracker will see them
+  ShapeSpace space;
+};
+
+// The shapes fitted to the first good frame; what a preview shows.
+struct FittedLimbs {
+  std::array<std::optional<Cylinder>, kPartCount> cylinders;  // of upper and lower arms and legs
+  std::optional<EllipticCylinder> torso;
+};
+
+// Collects the T-pose frames of a stream, tells the actor what to change, and fits the body to the best of them
+// (method section A (6)). Not thread-safe; deterministic for any number of threads.
+class Calibrator {
+ public:
+  // Throws Error for an invalid config.
+  Calibrator(std::shared_ptr<const CalibratorModels> models, const CameraModel& camera, const CalibratorConfig& config);
+  ~Calibrator();
+
+  // Judges the next frame and keeps it if it is a good one.
+  TPoseVerdict add(const DepthFrame& frame);
+  [[nodiscard]] int goodFrames() const;
+  [[nodiscard]] bool enough() const;
+
+  // The body by the frames so far. Throws Error saying why the recording does not do and what to change: too few good
+  // frames (with the most frequent fault), two people.
+  CalibratedActor solve();
+
+  // Of the last solve(): the frame that a preview shows, its mask, the limbs and the pose.
+  struct Shown {
+    DepthFrame frame;
+    MaskImage mask;
+    FittedLimbs limbs;
+    Pose q;
+  };
+  [[nodiscard]] const Shown& shown() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace depthmocap

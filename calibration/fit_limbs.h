@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "calibration/calibrated_actor.h"
+#include "calibration/calibrator.h"
+#include "calibration/pose_observation.h"
+
+namespace depthmocap {
+
+// Cylinders to the arms and legs, an elliptic cylinder to the torso.
+FittedLimbs fitLimbs(const std::vector<CloudPoint>& cloud, const BodyOutline& outline);
+
+// s_0 and the girths to start from: the average body of the outline's height, its limbs as thick as the cylinders, left
+// and right equal.
+ShapeVector startShape(const BodyTemplate& body, const BodyOutline& outline, const FittedLimbs& limbs);
+
+// The cylinders' radii in the actor.
+void setRadii(const FittedLimbs& limbs, CalibratedActor& actor);
+
+// [0, 1] by how much of the cloud the fitted surface explains and how closely.
+double fitConfidence(const JointSolution& solution);
+
+}  // namespace depthmocap
