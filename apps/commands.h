@@ -15,6 +15,7 @@ void addPosedbCommand(CLI::App& app);
 void addRecordCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
 void addShapeSpaceCommand(CLI::App& app);
+void addServeCommand(CLI::App& app);
 void addSynthesizeCommand(CLI::App& app);
 
 }  // namespace depthmocap

@@ -26,6 +26,7 @@ void addCommands(CLI::App& app) {
   addForestCommand(app);
   addPosedbCommand(app);
   addShapeSpaceCommand(app);
+  addServeCommand(app);
   addSynthesizeCommand(app);
 }
 

@@ -1,15 +1,19 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "apps/commands.h"
 #include "apps/progress.h"
+#include "apps/replay_view.h"
 #include "apps/run_stats.h"
+#include "apps/stop_request.h"
 #include "apps/track_options.h"
 #include "apps/track_outputs.h"
 #include "apps/tracker_setup.h"
@@ -58,45 +62,83 @@ class Pace {
   explicit Pace(bool on) : on_(on) {}
   void waitFor(double time_s) {
     if (!on_) return;
-    if (!first_s_) first_s_ = time_s;
-    std::this_thread::sleep_until(start_ + std::chrono::duration<double>(time_s - *first_s_));
+    if (!started_) first_s_ = time_s;
+    started_ = true;
+    std::this_thread::sleep_until(start_ + std::chrono::duration<double>(time_s - first_s_));
   }
 
  private:
   bool on_;
   Clock::time_point start_ = Clock::now();
-  std::optional<double> first_s_;
+  bool started_ = false;
+  double first_s_ = 0;
 };
+
+// Rate of the tracker over the last frames.
+class FrameRate {
+ public:
+  // [1/s]
+  double next() {
+    const Clock::time_point now = Clock::now();
+    times_.push_back(now);
+    if (times_.size() > kFrames) times_.pop_front();
+    const double span_s = std::chrono::duration<double>(now - times_.front()).count();
+    return span_s > 0 ? static_cast<double>(times_.size() - 1) / span_s : 0.0;
+  }
+
+ private:
+  static constexpr std::size_t kFrames = 30;
+  std::deque<Clock::time_point> times_;
+};
+
+// Indices of the frames to track.
+std::vector<std::size_t> chosenFrames(const RecordingReader& reader, const ReplayOptions& options) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < reader.frameCount(); ++i) {
+    if (reader.frameNumber(i) >= options.first && reader.frameNumber(i) <= options.last) chosen.push_back(i);
+  }
+  if (chosen.empty()) throw Error("no frame between --first and --last", options.recording.string());
+  return chosen;
+}
 
 void replay(const ReplayOptions& options) {
   const auto start = Clock::now();
+  const StopRequest on_ctrl_c;
   const std::unique_ptr<RecordingReader> reader = openRecording(options.recording);
+  const std::vector<std::size_t> chosen = chosenFrames(*reader, options);
   Tracker tracker(loadTrackerModels(options.track), reader->info().camera, trackerConfig(options.track));
   TrackOutputs outputs(options.track, reader->info());
+  std::optional<ReplayView> view;
+  if (options.track.view.on) view.emplace(options.track.view, options.recording, chosen.size());
   RunStats stats;
   Pace pace(!options.track.vmc.empty());
+  FrameRate rate;
   std::size_t readable = 0;
   DepthFrame frame;
   {
-    Progress progress("tracking", reader->frameCount());
-    for (std::size_t i = 0; i < reader->frameCount(); ++i) {
-      if (reader->frameNumber(i) < options.first || reader->frameNumber(i) > options.last) continue;
-      readable += readFrame(*reader, i, frame, stats) ? 1 : 0;
+    Progress progress("tracking", chosen.size());
+    for (std::size_t n = 0; n < chosen.size() && !StopRequest::made(); ++n) {
+      readable += readFrame(*reader, chosen[n], frame, stats) ? 1 : 0;
       const TrackedFrame& tracked = tracker.process(frame);
       stats.addFrame(tracked);
       pace.waitFor(frame.time_s);
       const auto write_start = Clock::now();
-      outputs.write(frame, tracked);
+      const TrackedFrame& shown = outputs.write(frame, tracked);
+      if (view) view->add(chosen[n], shown, rate.next());
       stats.addWrite(millisecondsSince(write_start));
-      progress.update(i + 1);
+      progress.update(n + 1);
     }
   }
-  if (stats.frames() == 0) throw Error("no frame between --first and --last", options.recording.string());
-  if (readable == 0) throw Error("no frame of the recording can be read", options.recording.string());
+  if (readable == 0 && !StopRequest::made())
+    throw Error("no frame of the recording can be read", options.recording.string());
   outputs.finish(tracker.actor());
   const double wall_s = millisecondsSince(start) / 1000.0;
   if (!options.track.stats.empty()) stats.write(options.track.stats, wall_s, true);
   std::cerr << "tracked " << stats.tracked() << " of " << stats.frames() << " frames\n";
+  if (!view) return;
+  view->tracked();
+  std::cerr << "the page stays until Ctrl-C\n";
+  while (!StopRequest::made()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/view_options.h"
+
 namespace depthmocap {
 
 void addTrackOptions(CLI::App& command, TrackOptions& o) {
@@ -25,6 +27,7 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_option("--contact-sheet", o.contact_sheet, "Up to 12 preview pictures of the run on one sheet, PNG")
       ->type_name("SHEET.png");
   command.add_option("--stats", o.stats, "Counts and times of each stage, JSON")->type_name("S.json");
+  addViewOptions(command, o.view);
   command.add_option("--forest", o.forest, "Body-part classifier (default: the one that comes with the build)");
   command.add_option("--posedb", o.posedb, "Pose database (default: the one that comes with the build)");
   command

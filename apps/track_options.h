@@ -9,6 +9,14 @@ class App;
 
 namespace depthmocap {
 
+// The page that shows the tracking.
+struct ViewOptions {
+  bool on = false;
+  std::string address = "127.0.0.1";
+  int port = 8010;
+  std::string token;
+};
+
 // Options that every tracking command shares; empty = not asked for.
 struct TrackOptions {
   std::filesystem::path forest;
@@ -19,7 +27,8 @@ struct TrackOptions {
   bool bvh_rigid = false;      // bones of one length in the BVH, also where the body's size was still being found
   std::string bvh_unit = "m";  // or "cm"
   std::filesystem::path gltf;
-  std::string vmc;    // HOST:PORT
+  std::string vmc;  // HOST:PORT
+  ViewOptions view;
   double smooth = 0;  // [0, 1] of the output filter; 0 = off
   std::filesystem::path labels;
   std::filesystem::path preview;

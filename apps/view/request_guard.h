@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace depthmocap {
+
+// What a request says about itself; empty where a field is missing.
+struct RequestClaim {
+  std::string_view target = {};  // path and query
+  std::string_view host = {};
+  std::string_view origin = {};
+  std::string_view authorization = {};
+};
+
+struct GuardConfig {
+  bool loopback = true;  // the server's address is one
+  std::uint16_t port = 0;
+  std::string token = {};  // empty: none is asked for
+};
+
+// Why a request must not be answered; empty if it may. Host names other than the server's own are refused on loopback
+// (DNS rebinding), foreign origins always, and a missing or wrong token where one is asked for.
+std::string refusal(const RequestClaim& claim, const GuardConfig& config);
+
+// "/a/b" of "/a/b?c=d".
+std::string_view pathOf(std::string_view target);
+// The value of a key in the query; values are taken as they stand.
+std::string_view queryValue(std::string_view target, std::string_view key);
+
+// Whether a numeric address is one of 127.0.0.0/8 or ::1.
+bool isLoopback(std::string_view address);
+
+}  // namespace depthmocap

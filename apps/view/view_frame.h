@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "libtracker/core/camera.h"
+#include "libtracker/core/depth_frame.h"
+#include "libtracker/output/floor_origin.h"
+#include "libtracker/tracker/tracked_frame.h"
+
+namespace depthmocap {
+
+// Where the player of a recording is. Indices count the frames that are tracked.
+struct Playback {
+  std::int64_t index = 0;    // of the frame that is shown
+  std::int64_t tracked = 0;  // frames that can be shown
+  std::int64_t total = 0;    // frames there will be
+  bool playing = false;
+  double speed = 1;
+};
+
+// What a viewer is told besides the tracked frame.
+struct ViewFigures {
+  double fps = 0;         // [1/s] of the tracker
+  double latency_ms = 0;  // from the sensor's time stamp until the outputs had the frame; 0: not live
+  int clients = 0;
+  bool recording = false;
+  std::optional<Playback> playback;
+};
+
+// Makes the binary message of a frame (docs/streaming.md, "frame"): JSON, then the depth picture in millimetres and the
+// part labels, at half the size or less. Keeps the height of the floor from frame to frame.
+class ViewFrameEncoder {
+ public:
+  explicit ViewFrameEncoder(const CameraModel& camera);
+  // `depth` and `labels` at full size; labels may be empty.
+  std::string encode(const DepthImage& depth, const PartImage& labels, const TrackedFrame& tracked,
+                     const ViewFigures& figures);
+  // Labels as they are in the message: every step-th pixel.
+  [[nodiscard]] int step() const { return step_; }
+
+ private:
+  [[nodiscard]] std::string head(const TrackedFrame& tracked, const ViewFigures& figures);
+
+  CameraModel camera_;
+  int step_;
+  FloorOrigin floor_;
+  double floor_y_ = 0;
+};
+
+}  // namespace depthmocap

@@ -1,0 +1,106 @@
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include "apps/view/label_runs.h"
+#include "apps/view/view_command.h"
+#include "apps/view/view_frame.h"
+#include "libtracker/core/random.h"
+#include "tests/support/temporary_folder.h"
+
+namespace depthmocap {
+namespace {
+
+using nlohmann::json;
+
+TEST(ViewCommand, ReadsEveryCommand) {
+  EXPECT_EQ(parseViewCommand(R"({"type":"play"})").action, ViewAction::Play);
+  EXPECT_EQ(parseViewCommand(R"({"type":"seek","frame":17})").frame, 17);
+  EXPECT_EQ(parseViewCommand(R"({"type":"speed","value":0.25})").speed, 0.25);
+  EXPECT_TRUE(parseViewCommand(R"({"type":"record","on":1})").on);
+  const ViewCommand lock = parseViewCommand(R"({"type":"lock","x":0.5,"y":0.25})");
+  EXPECT_EQ(lock.action, ViewAction::Lock);
+  EXPECT_EQ(lock.x, 0.5);
+  EXPECT_EQ(lock.y, 0.25);
+}
+
+TEST(ViewCommand, NamesWhatIsWrong) {
+  const std::string deep(3000, '[');
+  for (const std::string text :
+       {"", "x", "[]", "3", "{}", R"({"type":5})", R"({"type":"format disk"})", R"({"type":"seek"})",
+        R"({"type":"seek","frame":-1})", R"({"type":"seek","frame":1e300})", R"({"type":"seek","frame":"1"})",
+        R"({"type":"speed","value":0})", R"({"type":"speed","value":null})", R"({"type":"lock","x":2,"y":0})"}) {
+    EXPECT_NE(errorOf([&] { parseViewCommand(text); }).find("message"), std::string::npos) << text;
+  }
+  EXPECT_NE(errorOf([&] { parseViewCommand(deep); }), "");
+}
+
+TEST(LabelRuns, GiveBackEveryStepthPixel) {
+  PartImage labels(101, 47, 0);
+  Random random(2);
+  for (auto& label : labels.data) label = static_cast<std::uint8_t>(random.below(20) == 0 ? random.below(16) : 0);
+  for (const int step : {1, 2, 3}) {
+    PartImage again;
+    LabelRuns(labels, step).unpack(again);
+    ASSERT_EQ(again.width, labels.width);
+    for (int y = 0; y < labels.height; y += step) {
+      for (int x = 0; x < labels.width; x += step) ASSERT_EQ(again.at(x, y), labels.at(x, y)) << x << ' ' << y;
+    }
+  }
+  PartImage none;
+  LabelRuns(PartImage{}, 2).unpack(none);
+  EXPECT_TRUE(none.empty());
+}
+
+TEST(ViewFrame, HoldsPictureAndPose) {
+  CameraModel camera;
+  DepthImage depth(camera.width, camera.height, 0.0F);
+  PartImage labels(camera.width, camera.height, 0);
+  depth.at(20, 10) = 2.3456F;
+  labels.at(20, 10) = 9;
+  depth.at(0, 0) = 100.0F;  // farther than the picture can say
+  TrackedFrame tracked;
+  tracked.frame = 41;
+  tracked.state = TrackState::Tracking;
+  tracked.joints_camera.col(0) = Eigen::Vector3d(0.1, 0.2, 2.5);
+  tracked.markers_camera.confidence[3] = 0.5;
+  ViewFrameEncoder encoder(camera);
+  ViewFigures figures;
+  figures.playback = Playback{.index = 3, .tracked = 5, .total = 9, .playing = true, .speed = 2};
+  const std::string message = encoder.encode(depth, labels, tracked, figures);
+  std::uint32_t length = 0;
+  std::memcpy(&length, message.data(), 4);
+  EXPECT_EQ(length % 4, 0U);
+  const json head = json::parse(message.substr(4, length));
+  EXPECT_EQ(head["frame"], 41);
+  EXPECT_EQ(head["state"], "tracking");
+  EXPECT_EQ(head["joints"][0], (json{0.1, -0.2, -2.5}));
+  EXPECT_EQ(head["rotations"].size(), 20U);
+  EXPECT_EQ(head["markers"].size(), 1U);
+  EXPECT_EQ(head["markers"][0][0], 4);
+  EXPECT_EQ(head["playback"]["total"], 9);
+  const std::size_t pixels = 320 * 240;
+  ASSERT_EQ(message.size(), 4 + length + 3 * pixels);
+  std::uint16_t mm = 0;
+  std::memcpy(&mm, message.data() + 4 + length + 2 * (5 * 320 + 10), 2);
+  EXPECT_EQ(mm, 2346);
+  EXPECT_EQ(message[4 + length + 2 * pixels + 5 * 320 + 10], 9);
+  std::memcpy(&mm, message.data() + 4 + length, 2);
+  EXPECT_EQ(mm, 65535);
+}
+
+TEST(ViewFrame, LostFrameHasNoPose) {
+  const CameraModel camera{320, 240, 262, 262, 159.5, 119.5};
+  ViewFrameEncoder encoder(camera);
+  const std::string message = encoder.encode(DepthImage(320, 240, 1.0F), PartImage{}, TrackedFrame{}, {});
+  std::uint32_t length = 0;
+  std::memcpy(&length, message.data(), 4);
+  const json head = json::parse(message.substr(4, length));
+  EXPECT_EQ(head["state"], "lost");
+  EXPECT_FALSE(head.contains("joints"));
+  EXPECT_EQ(head["image"]["step"], 1);
+}
+
+}  // namespace
+}  // namespace depthmocap

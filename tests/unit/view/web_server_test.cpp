@@ -1,0 +1,214 @@
+#include "apps/view/web_server.h"
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "libtracker/core/error.h"
+#include "libtracker/core/random.h"
+#include "tests/support/temporary_folder.h"
+
+namespace depthmocap {
+namespace {
+
+// A bare TCP connection: what a hostile client has.
+class Connection {
+ public:
+  explicit Connection(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    const timeval wait{3, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(port);
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+  }
+  ~Connection() { ::close(socket_); }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  void send(const std::string& bytes) const { ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
+  // At least `size` bytes, or what comes until the other side ends.
+  std::string receive(std::size_t size) const {
+    std::string bytes;
+    std::array<char, 65536> buffer{};
+    while (bytes.size() < size) {
+      const ssize_t got = ::recv(socket_, buffer.data(), buffer.size(), 0);
+      if (got <= 0) break;
+      bytes.append(buffer.data(), static_cast<std::size_t>(got));
+    }
+    return bytes;
+  }
+
+ private:
+  int socket_;
+};
+
+class RunningServer : public testing::Test {
+ protected:
+  void SetUp() override { start({.port = 0}); }
+  void start(WebServerConfig config) {
+    server_ = std::make_unique<WebServer>(std::move(config));
+    server_->serveFile("/", {"text/html", "<p>page</p>"});
+    server_->onPost("/echo", [](const std::string& body) {
+      if (body == "bad") throw Error("is bad", "body");
+      return WebContent{"text/plain", body};
+    });
+    server_->onText([](const std::string& text) { return "got " + text; });
+    server_->setGreeting([] { return std::string("hello"); });
+    server_->start();
+  }
+  [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(server_->port()); }
+  [[nodiscard]] std::string ask(const std::string& method, const std::string& path, const std::string& headers = "",
+                                const std::string& body = "") const {
+    const Connection connection(server_->port());
+    connection.send(method + " " + path + " HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n" + headers +
+                    (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") + "\r\n" + body);
+    return connection.receive(1 << 20);
+  }
+  // A WebSocket connection after its handshake; `answer` is the first line.
+  [[nodiscard]] std::unique_ptr<Connection> stream(std::string& answer, const std::string& headers = "") const {
+    auto connection = std::make_unique<Connection>(server_->port());
+    connection->send("GET /stream HTTP/1.1\r\nHost: " + host() +
+                     "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                     "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
+                     headers + "\r\n");
+    const std::string bytes = connection->receive(10);
+    answer = bytes.substr(0, bytes.find('\r'));
+    return connection;
+  }
+  void waitForClients(int count) const {
+    for (int i = 0; i < 300 && server_->clients() != count; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_EQ(server_->clients(), count);
+  }
+  // Still well after what a test did to it.
+  ~RunningServer() override { EXPECT_NE(ask("GET", "/").find("<p>page</p>"), std::string::npos); }
+
+  std::unique_ptr<WebServer> server_;
+};
+
+// A client's text frame (RFC 6455), masked.
+std::string textFrame(const std::string& text) {
+  std::string frame = "\x81";
+  frame += static_cast<char>(0x80 | text.size());
+  frame += std::string(4, '\0');  // a mask of zeros
+  return frame + text;
+}
+
+TEST_F(RunningServer, AnswersAndRefuses) {
+  EXPECT_EQ(ask("GET", "/").rfind("HTTP/1.1 200", 0), 0U);
+  EXPECT_EQ(ask("GET", "/../../etc/passwd").rfind("HTTP/1.1 404", 0), 0U);
+  EXPECT_EQ(ask("DELETE", "/").rfind("HTTP/1.1 405", 0), 0U);
+  EXPECT_EQ(ask("GET", "/", "Origin: http://evil.example\r\n").rfind("HTTP/1.1 403", 0), 0U);
+  const std::string echoed = ask("POST", "/echo", "", "some text");
+  EXPECT_NE(echoed.find("some text"), std::string::npos);
+  const std::string bad = ask("POST", "/echo", "", "bad");
+  EXPECT_EQ(bad.rfind("HTTP/1.1 400", 0), 0U);
+  EXPECT_NE(bad.find(R"({"error":"body: is bad"})"), std::string::npos) << bad;
+}
+
+TEST_F(RunningServer, BoundsWhatIsSent) {
+  EXPECT_EQ(ask("POST", "/echo", "", std::string(100000, 'x')).rfind("HTTP/1.1 413", 0), 0U);
+  EXPECT_EQ(ask("GET", "/", "X: " + std::string(20000, 'x') + "\r\n").rfind("HTTP/1.1 413", 0), 0U);
+  const Connection connection(server_->port());
+  connection.send("POST /echo HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: 99999999999\r\n\r\n");
+  EXPECT_EQ(connection.receive(12).rfind("HTTP/1.1 413", 0), 0U);
+}
+
+TEST_F(RunningServer, SurvivesGarbage) {
+  Random random(9);
+  for (int i = 0; i < 40; ++i) {
+    std::string garbage;
+    for (int k = 0; k < 200; ++k) garbage += static_cast<char>(random.below(256));
+    const Connection connection(server_->port());
+    connection.send(i % 2 == 0 ? garbage : "GET / HTTP/1.1\r\n" + garbage + "\r\n\r\n");
+  }
+}
+
+TEST_F(RunningServer, StreamGreetsAnswersAndSendsFrames) {
+  std::string answer;
+  const auto client = stream(answer);
+  EXPECT_EQ(answer, "HTTP/1.1 101 Switching Protocols");
+  waitForClients(1);
+  client->send(textFrame("play"));
+  std::string bytes = client->receive(7 + 10);
+  EXPECT_NE(bytes.find("got play"), std::string::npos) << bytes;
+  EXPECT_TRUE(server_->frameWanted());
+  server_->sendFrame(std::make_shared<const std::string>("FRAME"));
+  EXPECT_NE(client->receive(7).find("FRAME"), std::string::npos);
+}
+
+TEST_F(RunningServer, StreamRefusesForeignPages) {
+  std::string answer;
+  const auto client = stream(answer, "Origin: http://evil.example\r\n");
+  EXPECT_EQ(answer, "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(server_->clients(), 0);
+}
+
+TEST_F(RunningServer, StreamEndsOnLongOrDamagedMessages) {
+  Random random(3);
+  for (int i = 0; i < 10; ++i) {
+    std::string answer;
+    const auto client = stream(answer);
+    std::string garbage = "\x82\xff" + std::string(8, '\x01');  // a binary message of 72 petabytes
+    if (i > 0) garbage.clear();
+    for (int k = 0; k < 100; ++k) garbage += static_cast<char>(random.below(256));
+    client->send(garbage);
+    client->receive(1 << 20);
+  }
+  waitForClients(0);
+}
+
+TEST_F(RunningServer, StalledClientHoldsTwoFramesAndNobodyElseUp) {
+  std::string answer;
+  const auto stalled = stream(answer);
+  const auto reader = stream(answer);
+  waitForClients(2);
+  const auto frame = std::make_shared<const std::string>(std::string(200000, 'f'));
+  const auto start = std::chrono::steady_clock::now();
+  std::size_t received = 0;
+  for (int i = 0; i < 100; ++i) {
+    server_->sendFrame(frame);
+    received += reader->receive(frame->size()).size();
+  }
+  EXPECT_GE(received, 100 * frame->size());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
+  // In the test, in the hands of the stalled client's socket, and waiting for it; not a hundred.
+  EXPECT_LE(frame.use_count(), 5);
+}
+
+TEST_F(RunningServer, RefusesConnectionsBeyondTheLimit) {
+  server_.reset();
+  start({.port = 0, .max_connections = 3});
+  std::vector<std::unique_ptr<Connection>> clients;
+  std::string answer;
+  for (int i = 0; i < 3; ++i) clients.push_back(stream(answer));
+  waitForClients(3);
+  EXPECT_EQ(ask("GET", "/").rfind("HTTP/1.1 503", 0), 0U);
+  clients.clear();
+  waitForClients(0);
+}
+
+TEST(WebServer, OtherAddressesNeedAToken) {
+  EXPECT_NE(errorOf([] { WebServer server({.address = "0.0.0.0", .port = 0}); }).find("token"), std::string::npos);
+  EXPECT_NE(errorOf([] { WebServer server({.address = "example", .port = 0}); }).find("numeric"), std::string::npos);
+  WebServer server({.address = "0.0.0.0", .port = 0, .token = "secret"});
+  EXPECT_NE(server.url().find("?token=secret"), std::string::npos);
+  EXPECT_NE(errorOf([&] { WebServer other({.port = server.port()}); }).find("cannot be listened on"),
+            std::string::npos);
+  EXPECT_EQ(randomToken().size(), 32U);
+  EXPECT_NE(randomToken(), randomToken());
+}
+
+}  // namespace
+}  // namespace depthmocap
