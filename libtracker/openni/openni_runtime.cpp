@@ -48,6 +48,7 @@ std::vector<OpenNiDevice> openNiDevices(const OpenNiRuntime&) {
   openni::Array<openni::DeviceInfo> list;
   openni::OpenNI::enumerateDevices(&list);
   std::vector<OpenNiDevice> devices;
+  devices.reserve(static_cast<std::size_t>(list.getSize()));
   for (int i = 0; i < list.getSize(); ++i) {
     devices.push_back({list[i].getUri(), list[i].getVendor(), list[i].getName()});
   }
