@@ -1,0 +1,179 @@
+// Runs inside the guest: reads real V4L2 devices of a real kernel with our code, and checks every picture.
+//
+// Usage: guest_check LOOPBACK RECORDING CAMERA.json VIVID
+//   LOOPBACK: a v4l2loopback device; RECORDING is written to it by a thread and must come back picture by picture.
+//   VIVID: the kernel's test camera; streams Y16, then is unplugged.
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <linux/videodev2.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "libtracker/recording/png_file.h"
+#include "libtracker/recording/recording_header.h"
+#include "libtracker/sensor/capture.h"
+#include "libtracker/sensor/recorder.h"
+#include "libtracker/sensor/v4l2_source.h"
+
+namespace depthmocap {
+namespace {
+
+void require(bool condition, const std::string& what) {
+  if (!condition) throw std::runtime_error(what);
+}
+
+// Another program with depth, as a user would pipe it: Y16 pictures by write().
+class Feeder {
+ public:
+  Feeder(const std::string& device, const CameraModel& camera) : device_(open(device.c_str(), O_WRONLY)) {
+    require(device_ >= 0, "cannot open the loopback device for writing");
+    v4l2_format format{};
+    format.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    format.fmt.pix.width = static_cast<std::uint32_t>(camera.width);
+    format.fmt.pix.height = static_cast<std::uint32_t>(camera.height);
+    format.fmt.pix.pixelformat = V4L2_PIX_FMT_Y16;
+    format.fmt.pix.sizeimage = format.fmt.pix.width * format.fmt.pix.height * 2;
+    require(ioctl(device_, VIDIOC_S_FMT, &format) == 0, "the loopback device does not take Y16");
+  }
+  ~Feeder() { close(device_); }
+  void send(const Image<std::uint16_t>& picture) const {
+    const std::size_t bytes = picture.data.size() * 2;
+    require(write(device_, picture.data.data(), bytes) == static_cast<ssize_t>(bytes), "a picture was not taken");
+  }
+
+ private:
+  int device_;
+};
+
+std::vector<Image<std::uint16_t>> readPictures(const std::string& recording, const CameraModel& camera, int count) {
+  std::vector<Image<std::uint16_t>> pictures(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "/depth/%06d.png", i);
+    readPng16(recording + name, camera.width, camera.height, pictures[static_cast<std::size_t>(i)]);
+  }
+  return pictures;
+}
+
+// Each picture is sent when the one before has arrived: an emulated processor has a pace of its own.
+void checkLoopback(const std::string& device, const std::string& recording, const std::string& camera_file) {
+  constexpr int kPictures = 60;
+  constexpr std::chrono::milliseconds kStep(10);
+  constexpr int kPatience = 500;  // steps
+  SourceOptions options;
+  options.camera = readRecordingHeader(camera_file);
+  const auto pictures = readPictures(recording, options.camera->camera, kPictures);
+  const Feeder feeder(device, options.camera->camera);
+  feeder.send(pictures[0]);
+  const auto source = openV4l2Camera(device, options);
+  std::printf("loopback: %dx%d from %s\n", source->info().camera.width, source->info().camera.height,
+              source->info().camera_name.c_str());
+  std::atomic<int> arrived{0};
+  Recorder recorder("/tmp/recorded", source->info(), true);
+  Capture capture(
+      *source,
+      [&](SensorFrame& frame) {
+        recorder.push(frame);
+        ++arrived;
+        return true;
+      },
+      [] {});
+  for (const auto& picture : pictures) {
+    const int before = arrived;
+    if (&picture != pictures.data()) feeder.send(picture);  // the first one was sent above
+    for (int i = 0; i < kPatience && arrived == before; ++i) std::this_thread::sleep_for(kStep);
+  }
+  capture.stop();
+  recorder.finish(capture.status().missing);
+  const auto recorded = openRecording("/tmp/recorded");
+  DepthFrame frame;
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < recorded->frameCount(); ++i) {
+    recorded->read(i, frame);
+    const auto is = [&frame](const Image<std::uint16_t>& picture) {
+      for (std::size_t p = 0; p < picture.data.size(); ++p) {
+        if (frame.depth.data[p] != static_cast<float>(picture.data[p] * 0.001)) return false;
+      }
+      return true;
+    };
+    if (expected > 0 && is(pictures[expected - 1])) continue;  // the loopback gave it again
+    const auto found = std::find_if(pictures.begin(), pictures.end(), is) - pictures.begin();
+    require(expected < pictures.size() && is(pictures[expected]),
+            "picture " + std::to_string(expected) + " did not come; in its place came " +
+                (found < kPictures ? std::to_string(found) : std::string("one that was never sent")));
+    ++expected;
+  }
+  require(expected == pictures.size(), "pictures at the end are missing");
+  std::printf("loopback: %zu pictures recorded, each of %zu came unchanged and in order, %lld missing\n",
+              recorded->frameCount(), expected, static_cast<long long>(capture.status().missing));
+}
+
+void pressDisconnect(const std::string& device) {
+  const int control = open(device.c_str(), O_RDWR);
+  require(control >= 0, "cannot open the test camera a second time");
+  v4l2_queryctrl query{};
+  query.id = V4L2_CTRL_FLAG_NEXT_CTRL;
+  while (ioctl(control, VIDIOC_QUERYCTRL, &query) == 0) {
+    if (std::strcmp(reinterpret_cast<const char*>(query.name), "Disconnect") == 0) {
+      v4l2_control press{query.id, 1};
+      ioctl(control, VIDIOC_S_CTRL, &press);
+      close(control);
+      return;
+    }
+    query.id |= V4L2_CTRL_FLAG_NEXT_CTRL;
+  }
+  throw std::runtime_error("the test camera has no button to disconnect it");
+}
+
+void checkTestCamera(const std::string& device) {
+  SourceOptions options;
+  options.pixel_format = "Y16";
+  const auto source = openV4l2Camera(device, options);
+  std::printf("test camera: %dx%d at %.1f per second\n", source->info().camera.width, source->info().camera.height,
+              source->info().fps);
+  SensorFrame frame;
+  int frames = 0;
+  double last_s = -1;
+  for (int i = 0; i < 200 && frames < 20; ++i) {
+    const SourceState state = source->next(frame, std::chrono::milliseconds(500));
+    require(state == SourceState::Frame || state == SourceState::Waiting,
+            "the test camera failed: " + source->problem());
+    if (state == SourceState::Waiting) continue;
+    require(frame.depth.time_s > last_s, "times do not grow");
+    require(frame.taken <= SensorClock::now(), "a picture from the future");
+    last_s = frame.depth.time_s;
+    ++frames;
+  }
+  require(frames == 20, "the test camera sends nothing");
+  pressDisconnect(device);
+  SourceState state = SourceState::Waiting;
+  for (int i = 0; i < 50 && state != SourceState::Lost; ++i)
+    state = source->next(frame, std::chrono::milliseconds(200));
+  require(state == SourceState::Lost, "it went unnoticed that the test camera was unplugged");
+  std::printf("test camera: 20 pictures, numbered to %lld in %.2f s; then: %s\n",
+              static_cast<long long>(frame.depth.frame), last_s, source->problem().c_str());
+}
+
+}  // namespace
+}  // namespace depthmocap
+
+int main(int argc, char** argv) {
+  try {
+    depthmocap::require(argc == 5, "usage: guest_check LOOPBACK RECORDING CAMERA.json VIVID");
+    depthmocap::checkLoopback(argv[1], argv[2], argv[3]);
+    depthmocap::checkTestCamera(argv[4]);
+    std::puts("GUEST OK");
+    return 0;
+  } catch (const std::exception& error) {
+    std::printf("GUEST FAILED: %s\n", error.what());
+    return 1;
+  }
+}
