@@ -7,6 +7,9 @@
 namespace depthmocap {
 
 void addTrackOptions(CLI::App& command, TrackOptions& o) {
+  command
+      .add_option("--actor", o.actor, "Calibrated body (see calibrate); otherwise the size is fitted while tracking")
+      ->type_name("A.json");
   command.add_option("--joints", o.joints, "Joint centres in the camera frame, CSV")->type_name("J.csv");
   command.add_option("--pose", o.pose, "The 36 degrees of freedom a frame, CSV")->type_name("Q.csv");
   command.add_option("--bvh", o.bvh, "Motion for animation programs, BVH, y up")->type_name("M.bvh");

@@ -15,10 +15,12 @@ struct ViewOptions {
   std::string address = "127.0.0.1";
   int port = 8010;
   std::string token;
+  std::filesystem::path folder = ".";  // for what the page records and calibrates
 };
 
 // Options that every tracking command shares; empty = not asked for.
 struct TrackOptions {
+  std::filesystem::path actor;  // a calibrated body
   std::filesystem::path forest;
   std::filesystem::path posedb;
   std::filesystem::path joints;

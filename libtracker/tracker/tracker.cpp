@@ -35,8 +35,9 @@ struct Tracker::Stages {
       : models(std::move(m)),
         camera(c),
         config(withThreads(cfg)),
-        size(given ? *given : averageActor(averageBoneLengths(cfg.policy.assumed_stature_m)), given.has_value(),
-             cfg.policy.adapt_s),
+        first_size(given ? *given : averageActor(averageBoneLengths(cfg.policy.assumed_stature_m)), given.has_value(),
+                   cfg.policy.adapt_s),
+        size(first_size),
         search_stature_m(statureOf(size.actor().skeleton.lengths)),
         segmenter(config.segment),
         finder(config.markers),
@@ -55,6 +56,10 @@ struct Tracker::Stages {
   void finish();
   [[nodiscard]] double searchScale() const { return statureOf(size.actor().skeleton.lengths) / search_stature_m; }
   [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config.policy.max_rms_m; }
+  [[nodiscard]] const Eigen::Vector3d* expectedCentroid() const {
+    if (predicted) return &predicted_centroid_camera;
+    return wanted_camera ? &*wanted_camera : nullptr;
+  }
   double observedScale(const Pose& q);
 
   const std::shared_ptr<const TrackerModels> models;
@@ -62,6 +67,7 @@ struct Tracker::Stages {
   const TrackerConfig config;
   const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
 
+  const SizeAdapter first_size;
   SizeAdapter size;
   const double search_stature_m;  // of the skeleton whose markers the search holds
   TrackHistory history;
@@ -73,6 +79,8 @@ struct Tracker::Stages {
   MapSolver solver;
   GlobalSearch global;
   DenseRefinement dense;
+
+  std::optional<Eigen::Vector3d> wanted_camera;  // where to look for somebody, once
 
   // Of the present frame.
   double dt_s = 0;
@@ -136,6 +144,7 @@ void Tracker::Stages::solve(const DepthImage& depth) {
   dense.observe(pixels, depth, segmentation.mask, camera, R_world_camera);
   const bool enough = markers_world.seenCount() >= config.policy.min_markers;
   const bool found = enough && (predicted ? solveNext() : solveFirst());
+  if (found) wanted_camera.reset();
   if (!found) history.miss(out.time_s, config.policy.coast_s);
 }
 
@@ -223,13 +232,29 @@ const ActorModel& Tracker::actor() const {
   return stages_->size.actor();
 }
 
+void Tracker::reset() {
+  stages_->history = {};
+  stages_->size = stages_->first_size;
+  stages_->wanted_camera.reset();
+}
+
+void Tracker::lockOn(const Eigen::Vector3d& p_camera) {
+  reset();
+  stages_->wanted_camera = p_camera;
+}
+
+void Tracker::use(std::shared_ptr<const TrackerModels> models, const ActorModel& actor) {
+  next_stages_ = std::make_unique<Stages>(std::move(models), stages_->camera, stages_->config, actor);
+}
+
 // The method on one page (Su, Chai, Xia 2016); equation numbers as in docs/architecture.md.
 const TrackedFrame& Tracker::process(const DepthFrame& frame) {
+  if (next_stages_) stages_ = std::move(next_stages_);
   Stages& s = *stages_;
   StageClock clock(s.out.ms);
   s.begin(frame);
 
-  s.segmenter.segment(frame.depth, s.camera, s.predicted ? &s.predicted_centroid_camera : nullptr, s.segmentation);
+  s.segmenter.segment(frame.depth, s.camera, s.expectedCentroid(), s.segmentation);
   clock.lap(&StageTimes::segment);
 
   // (1) a body part for each pixel

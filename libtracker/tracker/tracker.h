@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 
@@ -32,12 +33,21 @@ class Tracker {
   // The pose of one frame; times must increase. The result is valid until the next call.
   const TrackedFrame& process(const DepthFrame& frame);
 
+  // Between frames: forgets the actor; the next frame looks for somebody anew. An uncalibrated actor's size starts at
+  // the average again.
+  void reset();
+  // The same, and the next frame looks for the person nearest to this point [m], camera frame.
+  void lockOn(const Eigen::Vector3d& p_camera);
+  // The same with another body, say of a calibration that has just ended; `models` with its surface.
+  void use(std::shared_ptr<const TrackerModels> models, const ActorModel& actor);
+
   // The body in use.
   [[nodiscard]] const ActorModel& actor() const;
 
  private:
   struct Stages;
   std::unique_ptr<Stages> stages_;
+  std::unique_ptr<Stages> next_stages_;  // of use(), from the next frame on
 };
 
 }  // namespace depthmocap
