@@ -3,14 +3,20 @@
 #include <cstdint>
 
 #include "apps/shipped_files.h"
+#include "calibration/calibrated_actor.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/body/sample_surface.h"
 
 namespace depthmocap {
 namespace {
 
-constexpr int kSurfacePoints = 1500;  // of the average body, for the tracker's dense term
+constexpr int kSurfacePoints = 1500;  // for the tracker's dense term
 constexpr std::uint64_t kSurfaceSeed = 1;
+
+CalibratedActor actorAsSeen(const TrackOptions& options) {
+  const CalibratedActor actor = readActorFile(options.actor);
+  return scaledActor(actor, 1.0 / actor.depth_scale);
+}
 
 }  // namespace
 
@@ -18,8 +24,14 @@ std::shared_ptr<const TrackerModels> loadTrackerModels(const TrackOptions& optio
   const auto models = std::make_shared<TrackerModels>();
   models->forest = loadForest(options.forest.empty() ? shippedFile("general.forest") : options.forest);
   models->database = loadPoseDatabase(options.posedb.empty() ? shippedFile("default.posedb") : options.posedb);
-  models->surface = sampleSurface(makeBuiltinBody(BodyShape{}), kSurfacePoints, kSurfaceSeed);
+  models->surface = options.actor.empty() ? sampleSurface(makeBuiltinBody(BodyShape{}), kSurfacePoints, kSurfaceSeed)
+                                          : actorSurface(actorAsSeen(options), kSurfacePoints);
   return models;
+}
+
+std::optional<ActorModel> actorOf(const TrackOptions& options) {
+  if (options.actor.empty()) return std::nullopt;
+  return actorAsSeen(options).model;
 }
 
 TrackerConfig trackerConfig(const TrackOptions& options) {

@@ -185,6 +185,15 @@ ActorModel actorOfShape(const BodyTemplate& body, const ShapeVector& shape) {
   return model;
 }
 
+CalibratedActor scaledActor(CalibratedActor actor, double factor) {
+  actor.shape *= factor;
+  actor.model.skeleton = makeSkeleton(boneLengths(actor.shape));
+  for (BonePoint& marker : actor.model.markers) marker.p_bone *= factor;
+  for (double& radius : actor.model.radii_m) radius *= factor;
+  for (const RadiusField& radius : kRadii) actor.*radius.field *= factor;
+  return actor;
+}
+
 CalibratedActor readActorFile(const std::filesystem::path& path) {
   const std::string where = path.string();
   const json file = readJsonFile(path);

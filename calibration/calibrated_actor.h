@@ -24,7 +24,9 @@ struct CalibratedActor {
   // Of the fitted cylinders [m]; the trunk's is elliptic. 0 = not fitted.
   double upper_arm_radius_m = 0, lower_arm_radius_m = 0, upper_leg_radius_m = 0, lower_leg_radius_m = 0;
   double torso_half_width_m = 0, torso_half_depth_m = 0;
-  // What the depth of the calibrating camera must be multiplied by so that the actor has the stature that was given.
+  // Stature that was given over the one that the calibrating camera measured; 1 where none was given or where they
+  // agree as well as a calibration can tell. Tracking takes the body 1 / depth_scale times as large, as that camera
+  // sees it.
   double depth_scale = 1.0;
   std::string camera;
   Fit fit;
@@ -34,6 +36,9 @@ struct CalibratedActor {
 
 // An actor of these bone lengths and girths with an average body's marker offsets; its part radii follow the girths.
 ActorModel actorOfShape(const BodyTemplate& body, const ShapeVector& shape);
+
+// The same body `factor` times as large, all of it but depth_scale and fit.
+CalibratedActor scaledActor(CalibratedActor actor, double factor);
 
 // JSON, version 1 (docs/formats.md). What an actor file may leave out takes the average body's value of that stature;
 // needed are the format, the version and the nine bone lengths of the contract. Every complaint is an Error that names

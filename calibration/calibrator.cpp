@@ -26,6 +26,7 @@ constexpr double kTwoPeopleShare = 0.3;  // of the frames with a T-pose
 constexpr double kMinRivalHeight_m = 1.0;
 constexpr std::size_t kFewestPixels = 300;  // classified, of an actor
 constexpr int kStride_px = 2;
+constexpr double kScaleTolerance = 0.02;
 
 // A good frame, kept until the solve.
 struct GoodFrame {
@@ -43,6 +44,14 @@ std::vector<Eigen::Vector3f> positions(const std::vector<CloudPoint>& cloud) {
   points.reserve(cloud.size());
   for (const CloudPoint& point : cloud) points.push_back(point.p_world);
   return points;
+}
+
+// Where the camera measures otherwise than the given stature by more than a calibration can be wrong, its scale is.
+CalibratedActor withStature(const CalibratedActor& actor, double stature_m) {
+  const double factor = stature_m / actor.stature();
+  CalibratedActor result = scaledActor(actor, factor);
+  if (std::abs(factor - 1.0) > kScaleTolerance) result.depth_scale = factor;
+  return result;
 }
 
 }  // namespace
@@ -259,7 +268,8 @@ CalibratedActor Calibrator::solve() {
   if (!enough()) s.refuse();
   std::vector<const GoodFrame*> frames;
   for (const GoodFrame& frame : s.good) frames.push_back(&frame);
-  return s.fit(frames);
+  const CalibratedActor actor = s.fit(frames);
+  return s.config.stature_m ? withStature(actor, *s.config.stature_m) : actor;
 }
 
 const Calibrator::Shown& Calibrator::shown() const {

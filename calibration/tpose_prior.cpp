@@ -12,10 +12,10 @@ constexpr double kLoose = 0.12;
 
 // Standard deviations [rad] of the right side and the middle.
 constexpr std::pair<Dof, double> kDeviations[] = {
-    {kUpperbackRx, 0.06},   {kUpperbackRy, 0.05}, {kUpperbackRz, 0.04}, {kRclavicleRy, 0.06},    {kRclavicleRz, 0.08},
-    {kRhumerusRx, 0.10},    {kRhumerusRy, 0.20},  {kRhumerusRz, 0.20},  {kRradiusRy, kStraight}, {kNeckRx, kLoose},
-    {kNeckRz, 0.06},        {kHeadRy, kLoose},    {kRfemurRx, kLoose},  {kRfemurRy, kLoose},     {kRfemurRz, 0.20},
-    {kRtibiaRx, kStraight}, {kRfootRx, kLoose},   {kRfootRy, 0.20},
+    {kUpperbackRx, 0.06},   {kUpperbackRy, 0.05},  {kUpperbackRz, 0.04}, {kRclavicleRy, 0.06},    {kRclavicleRz, 0.08},
+    {kRhumerusRx, 0.10},    {kRhumerusRy, 0.20},   {kRhumerusRz, 0.20},  {kRradiusRy, kStraight}, {kNeckRx, kLoose},
+    {kNeckRz, 0.06},        {kHeadRy, kLoose},     {kRfemurRx, kLoose},  {kRfemurRy, kLoose},     {kRfemurRz, 0.20},
+    {kRtibiaRx, kStraight}, {kRfootRx, kStraight}, {kRfootRy, 0.20},
 };
 
 }  // namespace
