@@ -10,6 +10,7 @@
 #include "apps/camera_watch.h"
 #include "apps/commands.h"
 #include "apps/live_loop.h"
+#include "apps/live_view.h"
 #include "apps/run_stats.h"
 #include "apps/source_options.h"
 #include "apps/status_line.h"
@@ -30,20 +31,27 @@ struct LiveOptions {
   fs::path record;
 };
 
-// Files and figures of a run.
-class FileSink : public LiveSink {
+// Files, figures and the page of a run.
+class OutputSink : public LiveSink {
  public:
-  FileSink(TrackOutputs& outputs, RunStats& stats) : outputs_(outputs), stats_(stats) {}
+  // `view` may be null.
+  OutputSink(TrackOutputs& outputs, RunStats& stats, LiveView* view) : outputs_(outputs), stats_(stats), view_(view) {}
   void onFrame(const DepthFrame& frame, const TrackedFrame& tracked) override {
     const SensorClock::time_point start = SensorClock::now();
     stats_.addFrame(tracked);
-    outputs_.write(frame, tracked);
+    const TrackedFrame& shown = outputs_.write(frame, tracked);
+    if (view_ != nullptr) view_->onFrame(frame, shown);
     stats_.addWrite(std::chrono::duration<double, std::milli>(SensorClock::now() - start).count());
+  }
+
+  void onStatus(const LiveStatus& status) override {
+    if (view_ != nullptr) view_->onStatus(status);
   }
 
  private:
   TrackOutputs& outputs_;
   RunStats& stats_;
+  LiveView* view_;
 };
 
 std::string statusText(const LiveStatus& s) {
@@ -85,20 +93,23 @@ std::string summaryText(const LiveFigures& f, const RunStats& stats) {
 struct LiveRun {
   explicit LiveRun(const LiveOptions& options)
       : source(openChosenSource(options.source)),
-        tracker(loadTrackerModels(options.track), source->info().camera, trackerConfig(options.track)),
+        tracker(loadTrackerModels(options.track), source->info().camera, trackerConfig(options.track),
+                actorOf(options.track)),
         outputs(options.track, source->info()) {
     if (!options.record.empty()) recorder.emplace(options.record, source->info(), source->waitsForReader());
+    if (options.track.view.on) view.emplace(options.track, options.source.source, source->info(), tracker);
   }
   std::unique_ptr<DepthSource> source;
   Tracker tracker;
   TrackOutputs outputs;
   std::optional<Recorder> recorder;
+  std::optional<LiveView> view;
   RunStats stats;
 };
 
 LiveFigures track(LiveRun& run, double seconds) {
   LiveLoop loop(*run.source, run.tracker, run.recorder ? &*run.recorder : nullptr);
-  FileSink files(run.outputs, run.stats);
+  OutputSink files(run.outputs, run.stats, run.view ? &*run.view : nullptr);
   TerminalSink terminal;
   loop.addSink(files);
   loop.addSink(terminal);
@@ -125,7 +136,8 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
   if (figures.received == 0) attempt([&] { throw Error("not one frame came", options.source.source); });
   if (figures.received > 0) attempt([&] { run.outputs.finish(run.tracker.actor()); });
   run.stats.setLive(figures);
-  if (!options.track.stats.empty()) attempt([&] { run.stats.write(options.track.stats, wall_s, true); });
+  if (!options.track.stats.empty())
+    attempt([&] { run.stats.write(options.track.stats, wall_s, options.track.actor.empty()); });
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -106,7 +106,8 @@ void replay(const ReplayOptions& options) {
   const StopRequest on_ctrl_c;
   const std::unique_ptr<RecordingReader> reader = openRecording(options.recording);
   const std::vector<std::size_t> chosen = chosenFrames(*reader, options);
-  Tracker tracker(loadTrackerModels(options.track), reader->info().camera, trackerConfig(options.track));
+  Tracker tracker(loadTrackerModels(options.track), reader->info().camera, trackerConfig(options.track),
+                  actorOf(options.track));
   TrackOutputs outputs(options.track, reader->info());
   std::optional<ReplayView> view;
   if (options.track.view.on) view.emplace(options.track.view, options.recording, chosen.size());
@@ -133,7 +134,7 @@ void replay(const ReplayOptions& options) {
     throw Error("no frame of the recording can be read", options.recording.string());
   outputs.finish(tracker.actor());
   const double wall_s = millisecondsSince(start) / 1000.0;
-  if (!options.track.stats.empty()) stats.write(options.track.stats, wall_s, true);
+  if (!options.track.stats.empty()) stats.write(options.track.stats, wall_s, options.track.actor.empty());
   std::cerr << "tracked " << stats.tracked() << " of " << stats.frames() << " frames\n";
   if (!view) return;
   view->tracked();

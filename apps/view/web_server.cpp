@@ -36,6 +36,8 @@ constexpr std::chrono::seconds kRequestTime{10};  // for a request to arrive and
 constexpr std::uint32_t kMaxHeaderBytes = 8 * 1024;
 constexpr std::size_t kMaxMessageBytes = 4 * 1024;  // of a client
 constexpr std::size_t kMaxWaitingTexts = 32;        // per client
+constexpr const char* kReady = "ready";
+constexpr int kMaxUnconfirmed = 2;
 constexpr const char* kStreamPath = "/stream";
 
 using Request = http::request<http::string_body>;
@@ -122,6 +124,7 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
     });
   }
   void frame(std::shared_ptr<const std::string> frame) {
+    if (!hasCredit()) return;
     frame_ = std::move(frame);
     write();
   }
@@ -130,13 +133,16 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
     texts_.push_back(std::make_shared<const std::string>(text));
     write();
   }
-  [[nodiscard]] bool waitsForFrame() const { return frame_ == nullptr; }
+  [[nodiscard]] bool waitsForFrame() const { return frame_ == nullptr && hasCredit(); }
   void close() {
     server_.stream_clients.erase(shared_from_this());
     server_.client_count = static_cast<int>(server_.stream_clients.size());
     server_.updateWanted();
     beast::get_lowest_layer(socket_).close();
   }
+
+  // Frames on their way wait in the buffers of the system and the browser, where they only grow old.
+  [[nodiscard]] bool hasCredit() const { return !confirms_ || unconfirmed_ < kMaxUnconfirmed; }
 
  private:
   void joined() {
@@ -156,7 +162,11 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
     const bool is_text = socket_.got_text();
     const std::string message = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
-    if (is_text && server_.text_handler) {
+    if (is_text && message == kReady) {
+      confirms_ = true;
+      unconfirmed_ = std::max(0, unconfirmed_ - 1);
+      server_.updateWanted();
+    } else if (is_text && server_.text_handler) {
       const std::string answer = server_.text_handler(message);
       if (!answer.empty()) text(answer);
     }
@@ -171,6 +181,7 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
     } else {
       writing_ = std::move(frame_);
       frame_ = nullptr;
+      ++unconfirmed_;
       socket_.binary(true);
     }
     server_.updateWanted();
@@ -185,6 +196,8 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
   WebServer::Impl& server_;
   std::shared_ptr<ConnectionCount> count_;
   beast::flat_buffer buffer_;
+  bool confirms_ = false;  // the client says "ready" for each frame that it is done with
+  int unconfirmed_ = 0;    // frames that were sent and not confirmed
   std::shared_ptr<const std::string> writing_;
   std::shared_ptr<const std::string> frame_;
   std::deque<std::shared_ptr<const std::string>> texts_;

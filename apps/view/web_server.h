@@ -28,7 +28,8 @@ struct WebServerConfig {
 
 // Serves HTTP and WebSocket (Boost.Beast) on a thread of its own. Everything that a client can make grow is bounded:
 // connections, header, body and message sizes, the time of a handshake, and per client one frame and a few texts that
-// wait to be sent. A frame that a client is too slow for is replaced by the next one, for that client alone.
+// wait to be sent. A frame that a client is too slow for is replaced by the next one, for that client alone. A
+// client that confirms frames with the text "ready" gets no more than two that it has not confirmed.
 //
 // Requests are answered only for the host names that the address has, and where an Origin is named it must be the
 // server's own: pages of others cannot reach it. What is wrong gets a 4xx answer with {"error": "..."}.

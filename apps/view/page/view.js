@@ -16,6 +16,7 @@ let dragging = false;   // the player's knob
 let picking = false;    // a person to lock on
 let playing = true;
 let recording = false;
+let unconfirmed = 0;    // frames that came since the last "ready"
 let figuresShown = 0;   // when the numbers last changed: faster than eyes read is wasted
 let updates = [];
 const bars = new Map();
@@ -138,6 +139,7 @@ function draw() {
     scene.showMarkers(frame.markers);
     scene.showFigure(frame);
     drawPicture(frame);
+    for (; unconfirmed > 0; --unconfirmed) socket.send("ready");
     const now = performance.now();
     if (now - figuresShown > FIGURES_MS || frame.state !== byId("state").textContent) {
       figuresShown = now;
@@ -165,9 +167,14 @@ function connect() {
   socket.binaryType = "arraybuffer";
   socket.onmessage = ({ data }) => {
     if (typeof data === "string") onText(JSON.parse(data));
-    else if (hello) newest = parseFrame(data);
+    else if (hello) {
+      newest = parseFrame(data);
+      ++unconfirmed;
+    }
   };
   socket.onclose = () => {
+    unconfirmed = 0;
+    newest = null;
     byId("state").textContent = "no connection";
     byId("state").className = "state lost";
     setTimeout(connect, 1000);

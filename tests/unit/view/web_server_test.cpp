@@ -23,7 +23,7 @@ namespace {
 class Connection {
  public:
   explicit Connection(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    const timeval wait{3, 0};
+    const timeval wait{1, 0};
     setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
     sockaddr_in to{};
     to.sin_family = AF_INET;
@@ -185,6 +185,29 @@ TEST_F(RunningServer, StalledClientHoldsTwoFramesAndNobodyElseUp) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
   // In the test, in the hands of the stalled client's socket, and waiting for it; not a hundred.
   EXPECT_LE(frame.use_count(), 5);
+}
+
+TEST_F(RunningServer, ClientThatConfirmsGetsTwoFramesAtATime) {
+  std::string answer;
+  const auto client = stream(answer);
+  waitForClients(1);
+  const std::size_t size = 2 + 5;
+  const auto send = [&] {
+    server_->sendFrame(std::make_shared<const std::string>("FRAME"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  };
+  send();
+  client->receive(size);
+  client->send(textFrame("ready"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  for (int i = 0; i < 5; ++i) send();
+  const std::string two = client->receive(3 * size);  // no third comes
+  EXPECT_EQ(two.find("FRAME", two.find("FRAME", two.find("FRAME") + 1) + 1), std::string::npos);
+  EXPECT_FALSE(server_->frameWanted());
+  client->send(textFrame("ready"));
+  for (int i = 0; i < 300 && !server_->frameWanted(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  send();
+  EXPECT_NE(client->receive(size).find("FRAME"), std::string::npos);
 }
 
 TEST_F(RunningServer, RefusesConnectionsBeyondTheLimit) {
