@@ -8,6 +8,7 @@ class App;
 namespace depthmocap {
 
 void addCalibrateCommand(CLI::App& app);
+void addCamerasCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addForestCommand(CLI::App& app);
 void addLiveCommand(CLI::App& app);

@@ -11,6 +11,18 @@ constexpr std::chrono::milliseconds kStatusEvery{200};  // for sinks
 constexpr std::chrono::seconds kRateWindow{1};
 constexpr double kGrace_s = 1.0;  // a camera that sends nothing ends a limited run so much later
 
+// However the tracker ends: a capture thread that waits for it must not wait for ever.
+class CloseAtEnd {
+ public:
+  explicit CloseAtEnd(NewestFrame& slot) : slot_(slot) {}
+  ~CloseAtEnd() { slot_.close(); }
+  CloseAtEnd(const CloseAtEnd&) = delete;
+  CloseAtEnd& operator=(const CloseAtEnd&) = delete;
+
+ private:
+  NewestFrame& slot_;
+};
+
 double secondsSince(SensorClock::time_point start) {
   return std::chrono::duration<double>(SensorClock::now() - start).count();
 }
@@ -25,6 +37,7 @@ void LiveLoop::run(const LiveLimits& limits) {
   const bool limited = limits.seconds > 0 && !source_.waitsForReader();
   capture_ = std::make_unique<Capture>(
       source_, [this](SensorFrame& frame) { return hand(frame); }, [this] { newest_.close(); }, limits.seconds);
+  const CloseAtEnd close_at_end(newest_);
   SensorFrame frame;
   while (!newest_.finished() && !(limits.stopped && limits.stopped())) {
     if (newest_.take(frame, kPatience)) track(frame);

@@ -21,6 +21,7 @@ void addCommands(CLI::App& app) {
   addReplayCommand(app);
   addLiveCommand(app);
   addRecordCommand(app);
+  addCamerasCommand(app);
   addCalibrateCommand(app);
   addEvaluateCommand(app);
   addForestCommand(app);

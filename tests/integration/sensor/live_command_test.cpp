@@ -93,6 +93,25 @@ TEST_F(LiveCommand, CtrlCCompletesEveryFile) {
   EXPECT_GE(openRecording(folder_ / "rec")->frameCount(), 10U);
 }
 
+TEST_F(LiveCommand, EndsWhenAnOutputFails) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  for (const char* pace : {"0", "1"}) {
+    const ProgramResult result =
+        runProgram(std::string("live --joints /dev/full --source replay:") + at("walk") + " --speed " + pace);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.errors.find("/dev/full"), std::string::npos) << result.errors;
+  }
+}
+
+TEST_F(LiveCommand, ListsTheCamerasThatAreThere) {
+  setenv("DEPTHMOCAP_TEST_RECORDING", (folder_ / "walk").c_str(), 1);
+  const ProgramResult result = runProgram("cameras");
+  unsetenv("DEPTHMOCAP_TEST_RECORDING");
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("openni2:depthmocap-test/1@1  depthmocap Served recording"), std::string::npos)
+      << result.output;
+}
+
 TEST_F(LiveCommand, RecordsSoManyFrames) {
   const ProgramResult result =
       runProgram("record --speed 0 --frames 7 --source replay:" + at("walk") + " --out " + at("rec"));
