@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,8 +15,10 @@
 #include "apps/progress.h"
 #include "apps/shipped_files.h"
 #include "calibration/calibrator.h"
+#include "calibration/pose_collector.h"
 #include "libtracker/core/error.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/tracker/tracker.h"
 
 namespace depthmocap {
 namespace {
@@ -22,12 +26,18 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kMostTracked = 300;  // frames in which other poses are looked for
+constexpr int kOtherFrames = 12;
+constexpr std::size_t kFewestOthers = 4;
+
 struct CalibrateOptions {
   fs::path recording;
   fs::path out;
   fs::path preview;
   fs::path forest;
+  fs::path posedb;
   fs::path shape_space;
+  bool tpose_only = false;
   CalibratorConfig config;
   double tolerance_deg = 15;
 };
@@ -40,36 +50,68 @@ std::shared_ptr<const CalibratorModels> loadModels(const CalibrateOptions& o) {
   return models;
 }
 
-// Every frame that can be read; advice when it changes.
+bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame) {
+  try {
+    reader.read(i, frame);
+    return true;
+  } catch (const Error& error) {
+    std::cerr << "depthmocap: warning: " << error.what() << "; frame skipped\n";
+    return false;
+  }
+}
+
 void collect(RecordingReader& reader, Calibrator& calibrator) {
   Progress progress("looking for the T-pose", reader.frameCount());
   DepthFrame frame;
   for (std::size_t i = 0; i < reader.frameCount(); ++i) {
-    try {
-      reader.read(i, frame);
-    } catch (const Error& error) {
-      std::cerr << "depthmocap: warning: " << error.what() << "; frame skipped\n";
-      continue;
-    }
-    calibrator.add(frame);
+    if (readFrame(reader, i, frame)) calibrator.add(frame);
     progress.update(i + 1);
   }
 }
 
+// Tracks the recording with the body that the T-pose gave, to learn more from other poses.
+std::vector<PoseObservation> otherPoses(const CalibrateOptions& o, RecordingReader& reader,
+                                        const CalibratorModels& calibration, const CalibratedActor& actor) {
+  const auto models = std::make_shared<TrackerModels>();
+  models->forest = calibration.general;
+  models->database = loadPoseDatabase(o.posedb.empty() ? shippedFile("default.posedb") : o.posedb);
+  models->surface = actorSurface(actor, o.config.surface_points);
+  TrackerConfig config;
+  config.threads = o.config.threads;
+  Tracker tracker(models, reader.info().camera, config, actor.model);
+  PoseCollector collector(reader.info().camera, o.config.points_per_part);
+  const std::size_t count = std::min(reader.frameCount(), kMostTracked);
+  Progress progress("looking at other poses", count);
+  DepthFrame frame;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (readFrame(reader, i, frame)) collector.add(frame, tracker.process(frame));
+    progress.update(i + 1);
+  }
+  return collector.chosen(kOtherFrames);
+}
+
 void calibrate(CalibrateOptions o) {
-  o.config.check.tolerance_rad = o.tolerance_deg * 3.14159265358979 / 180.0;
+  o.config.check.tolerance_rad = o.tolerance_deg * std::numbers::pi / 180.0;
   const auto reader = openRecording(o.recording);
-  Calibrator calibrator(loadModels(o), reader->info().camera, o.config);
+  const auto models = loadModels(o);
+  Calibrator calibrator(models, reader->info().camera, o.config);
   collect(*reader, calibrator);
   const auto start = Clock::now();
   CalibratedActor actor = calibrator.solve();
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (!o.tpose_only) {
+    const auto others = otherPoses(o, *reader, *models, scaledActor(actor, 1.0 / actor.depth_scale));
+    if (others.size() >= kFewestOthers) actor = calibrator.solve(others);
+  }
   actor.camera = reader->info().camera_name;
   if (!o.preview.empty()) writeCalibrationPicture(o.preview, calibrator.shown(), actor, reader->info().camera);
   writeActorFile(o.out, actor);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  std::cerr << fmt::format("{} of {:.3f} m from {} frames, surface within {:.1f} mm, confidence {:.2f}, {:.2f} s\n",
-                           actor.sex == Sex::Male ? "man's body" : "woman's body", actor.stature(),
-                           actor.fit.tpose_frames, 1000 * actor.fit.surface_m, actor.fit.confidence, seconds);
+  std::cerr << fmt::format(
+      "a body of {:.3f} m from {} frames of T-pose (solved in {:.2f} s) and {} in other poses; surface within {:.1f} "
+      "mm, "
+      "confidence {:.2f}\n",
+      actor.stature(), actor.fit.tpose_frames, seconds, actor.fit.other_frames, 1000 * actor.fit.surface_m,
+      actor.fit.confidence);
 }
 
 }  // namespace
@@ -92,6 +134,8 @@ void addCalibrateCommand(CLI::App& app) {
       ->check(CLI::Range(1.0, 40.0))
       ->capture_default_str();
   command->add_option("--forest", o->forest, "Body-part classifier that the tracker will use");
+  command->add_option("--posedb", o->posedb, "Pose database, for the frames that are no T-pose");
+  command->add_flag("--tpose-only", o->tpose_only, "Use nothing but the T-pose, as the paper does");
   command->add_option("--shape-space", o->shape_space, "Statistics of bone lengths");
   command->add_option("--threads", o->config.threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))

@@ -27,6 +27,7 @@ constexpr double kMinRivalHeight_m = 1.0;
 constexpr std::size_t kFewestPixels = 300;  // classified, of an actor
 constexpr int kStride_px = 2;
 constexpr double kScaleTolerance = 0.02;
+constexpr double kAverageStature_m = 1.69;  // of the bodies that the T-pose forest was trained with
 
 // A good frame, kept until the solve.
 struct GoodFrame {
@@ -39,10 +40,17 @@ struct GoodFrame {
   double deviation = 0;  // [rad]
 };
 
-std::vector<Eigen::Vector3f> positions(const std::vector<CloudPoint>& cloud) {
+// The actor's pixels in the upright world [m].
+std::vector<Eigen::Vector3f> actorPoints(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera) {
+  const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
   std::vector<Eigen::Vector3f> points;
-  points.reserve(cloud.size());
-  for (const CloudPoint& point : cloud) points.push_back(point.p_world);
+  for (int y = 0; y < depth.height; y += kStride_px) {
+    for (int x = 0; x < depth.width; x += kStride_px) {
+      const auto depth_m = static_cast<double>(depth.at(x, y));
+      if (mask.at(x, y) == 0 || depth_m <= 0) continue;
+      points.push_back((R_world_camera * camera.unproject(x, y, depth_m)).cast<float>());
+    }
+  }
   return points;
 }
 
@@ -82,10 +90,11 @@ struct Calibrator::Impl {
 
   TPoseVerdict judge(const DepthFrame& frame);
   bool secondPerson(const DepthFrame& frame);
-  MarkerSet markersBy(const Forest& forest, const DepthFrame& frame, double stature_m);
+  void classifyScaled(const DepthImage& depth, double stature_m);
+  MarkerSet findMarkers(double stature_m);
   void keep(GoodFrame good);
   [[nodiscard]] PoseObservation observationOf(const GoodFrame& good, const ShapeVector& shape) const;
-  CalibratedActor fit(const std::vector<const GoodFrame*>& frames);
+  CalibratedActor fit(const std::vector<const GoodFrame*>& frames, const std::vector<PoseObservation>& others);
   [[noreturn]] void refuse() const;
 
   const std::shared_ptr<const CalibratorModels> models;
@@ -101,6 +110,7 @@ struct Calibrator::Impl {
   Segmentation rival;
   ClassifyMemory memory;
   ClassifiedPixels pixels;
+  DepthImage scaled_depth;
   std::vector<GoodFrame> good;
   int good_count = 0;
   int frame_count = 0;
@@ -110,20 +120,21 @@ struct Calibrator::Impl {
 
 TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
   segmenter.segment(frame.depth, camera, nullptr, segmentation);
-  classify(models->tpose, frame.depth, segmentation.mask, camera.fx, classify_config, memory, pixels);
-  if (pixels.pixels.size() < kFewestPixels) return {TPoseFault::Nobody, "nobody is in view", 0};
+  const std::vector<Eigen::Vector3f> points = actorPoints(frame.depth, segmentation.mask, camera);
+  if (points.size() < kFewestPixels) return {TPoseFault::Nobody, "nobody is in view", 0};
   GoodFrame candidate;
-  candidate.cloud = cloudOf(pixels, camera);
-  candidate.outline = measureOutline(positions(candidate.cloud));
+  candidate.outline = measureOutline(points);
   TPoseVerdict verdict = checkTPose(segmentation.mask, candidate.outline, config.check);
   if (!verdict.good()) return verdict;
   const double stature = candidate.outline.height();
-  candidate.markers_world = markersBy(models->general, frame, stature);
-  const MarkerSet tpose_markers = markersBy(models->tpose, frame, stature);
-  if (tpose_markers.seenCount() < kFewestParts) {
+  classifyScaled(frame.depth, stature);
+  candidate.cloud = cloudOf(pixels, camera);
+  if (findMarkers(stature).seenCount() < kFewestParts) {
     return {TPoseFault::PartsMissing, "not all body parts are recognised: stand freely, away from furniture", 0};
   }
   if (secondPerson(frame)) return {TPoseFault::TwoPeople, "two people are in view: only one may be", 0};
+  classify(models->general, frame.depth, segmentation.mask, camera.fx, classify_config, memory, pixels);
+  candidate.markers_world = findMarkers(stature);
   candidate.frame = frame;
   candidate.mask = segmentation.mask;
   candidate.deviation = verdict.deviation;
@@ -158,12 +169,21 @@ bool Calibrator::Impl::secondPerson(const DepthFrame& frame) {
   return static_cast<double>(bottom - top) > kMinRivalHeight_m;
 }
 
-MarkerSet Calibrator::Impl::markersBy(const Forest& forest, const DepthFrame& frame, double stature_m) {
-  ClassifiedPixels classified;
-  classify(forest, frame.depth, segmentation.mask, camera.fx, classify_config, memory, classified);
+// The parts of a T-pose. The forest knows small and tall people as exceptions, and draws their parts towards those of
+// the average: so it is shown everybody at the average size, the whole scene scaled about the camera.
+void Calibrator::Impl::classifyScaled(const DepthImage& depth, double stature_m) {
+  const auto scale = static_cast<float>(kAverageStature_m / stature_m);
+  scaled_depth = depth;
+  for (float& value : scaled_depth.data) value *= scale;
+  classify(models->tpose, scaled_depth, segmentation.mask, camera.fx, classify_config, memory, pixels);
+  for (auto& pixel : pixels.pixels) pixel.depth_m /= scale;
+}
+
+// Markers of the classified pixels.
+MarkerSet Calibrator::Impl::findMarkers(double stature_m) {
   MarkerSet markers_camera;
   const auto radii = averagePartRadii(makeSkeleton(averageBoneLengths(stature_m)));
-  finder.find(classified, camera, radii, nullptr, markers_camera);
+  finder.find(pixels, camera, radii, nullptr, markers_camera);
   return rotated(R_world_camera, markers_camera);
 }
 
@@ -187,14 +207,19 @@ PoseObservation Calibrator::Impl::observationOf(const GoodFrame& g, const ShapeV
   return observation;
 }
 
-CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frames) {
+CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frames,
+                                      const std::vector<PoseObservation>& others) {
   const GoodFrame& first = *frames.front();
   shown.limbs = fitLimbs(first.cloud, first.outline);
   std::array<JointSolution, 2> solutions;
   parallelFor(config.threads, templates.size(), [&](std::size_t i) {
     const ShapeVector start = startShape(templates[i], first.outline, shown.limbs);
     std::vector<PoseObservation> observations;
-    for (const GoodFrame* frame : frames) observations.push_back(observationOf(*frame, start));
+    for (const GoodFrame* frame : frames) {
+      observations.push_back(observationOf(*frame, start));
+      observations.back().weight = 1.0 / static_cast<double>(frames.size());
+    }
+    observations.insert(observations.end(), others.begin(), others.end());
     solutions[i] = solveJointly(templates[i], models->space, observations, start, config.solve);
   });
   const std::size_t best = solutions[1].cost < solutions[0].cost ? 1 : 0;
@@ -206,6 +231,7 @@ CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frame
   actor.model.markers = solution.markers;
   setRadii(shown.limbs, actor);
   actor.fit.tpose_frames = static_cast<int>(frames.size());
+  actor.fit.other_frames = static_cast<int>(others.size());
   actor.fit.surface_m = solution.rms_surface_m;
   actor.fit.marker_m = solution.rms_marker_m;
   actor.fit.confidence = fitConfidence(solution);
@@ -259,7 +285,7 @@ bool Calibrator::enough() const {
   return impl_->good_count >= impl_->config.frames;
 }
 
-CalibratedActor Calibrator::solve() {
+CalibratedActor Calibrator::solve(const std::vector<PoseObservation>& others) {
   Impl& s = *impl_;
   const auto two = s.faults.find(TPoseFault::TwoPeople);
   if (two != s.faults.end() && two->second.first > kTwoPeopleShare * (two->second.first + s.good_count)) {
@@ -268,7 +294,7 @@ CalibratedActor Calibrator::solve() {
   if (!enough()) s.refuse();
   std::vector<const GoodFrame*> frames;
   for (const GoodFrame& frame : s.good) frames.push_back(&frame);
-  const CalibratedActor actor = s.fit(frames);
+  const CalibratedActor actor = s.fit(frames, others);
   return s.config.stature_m ? withStature(actor, *s.config.stature_m) : actor;
 }
 

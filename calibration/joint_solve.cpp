@@ -202,9 +202,8 @@ class JointProblem {
 
   void solve() {
     ceres::Problem problem;
-    const double weight = 1.0 / static_cast<double>(observations_.size());
     for (std::size_t t = 0; t < observations_.size(); ++t) {
-      problem.AddResidualBlock(new PoseCost(body_, observations_[t], matches_[t], bones_, config_, weight), nullptr,
+      problem.AddResidualBlock(new PoseCost(body_, observations_[t], matches_[t], bones_, config_), nullptr,
                                shape_.data(), offsets_.data(), poses_[t].data());
     }
     problem.AddResidualBlock(new ShapeCost(body_, space_, config_), nullptr, shape_.data());

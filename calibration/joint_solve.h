@@ -8,8 +8,8 @@
 
 namespace depthmocap {
 
-// Weights of the joint solve. Every term is a squared residual over its deviation; observations are averaged over the
-// frames, because what a body does to them is the same in each.
+// Weights of the joint solve. Every term is a squared residual over its deviation. The weights of a set of frames in
+// one pose add up to 1, because what the body and the classifier do to them is the same in each.
 struct JointSolveConfig {
   double gamma = 0.5;                   // (>= 0) weight of the shape space, residuals in centimetres
   double marker_deviation_m = 0.025;    // [m] (> 0)

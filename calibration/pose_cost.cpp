@@ -96,13 +96,8 @@ struct PoseCost::Evaluation {
 };
 
 PoseCost::PoseCost(const BodyTemplate& body, const PoseObservation& observation, const Matches& matches,
-                   const std::array<Bone, kPartCount>& marker_bones, const JointSolveConfig& config, double weight)
-    : body_(body),
-      observation_(observation),
-      matches_(matches),
-      marker_bones_(marker_bones),
-      config_(config),
-      weight_(weight) {
+                   const std::array<Bone, kPartCount>& marker_bones, const JointSolveConfig& config)
+    : body_(body), observation_(observation), matches_(matches), marker_bones_(marker_bones), config_(config) {
   mutable_parameter_block_sizes()->assign({kShapeCount, kOffsetCount, kDofCount});
   set_num_residuals(static_cast<int>(kOffsetCount + matches.cloud.size() + observation.boundaries.size() +
                                      matches.ends.size() + kDofCount));
@@ -120,7 +115,8 @@ bool PoseCost::Evaluate(double const* const* parameters, double* residuals, doub
 
 void PoseCost::evaluateMarkers(Evaluation& e) const {
   for (int part = 0; part < kPartCount; ++part) {
-    const double scale = std::sqrt(weight_ * observation_.markers_world.confidence[part]) / config_.marker_deviation_m;
+    const double scale =
+        std::sqrt(observation_.weight * observation_.markers_world.confidence[part]) / config_.marker_deviation_m;
     const Bone bone = marker_bones_[static_cast<std::size_t>(part)];
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d direction = Eigen::Vector3d::Unit(axis);
@@ -137,14 +133,14 @@ void PoseCost::evaluateCloud(Evaluation& e) const {
   if (matches_.cloud.empty()) return;
   const double share = config_.surface_points / static_cast<double>(matches_.cloud.size());
   for (const CloudMatch& match : matches_.cloud) {
-    const double scale = std::sqrt(weight_ * share * match.weight) / config_.surface_deviation_m;
+    const double scale = std::sqrt(observation_.weight * share * match.weight) / config_.surface_deviation_m;
     e.addRow(match.model->bone, body_.place(*match.model, e.shape), body_.placeJacobian(*match.model), match.n_world,
              match.n_world.dot(match.p_world), scale);
   }
 }
 
 void PoseCost::evaluateBoundaries(Evaluation& e) const {
-  const double scale = std::sqrt(weight_) / config_.boundary_deviation_m;
+  const double scale = std::sqrt(observation_.weight) / config_.boundary_deviation_m;
   for (const PartBoundary& boundary : observation_.boundaries) {
     const BoundaryPlace at = boundaryPlace(boundary.place);
     e.addRow(at.bone, at.place * e.shape, at.place, boundary.direction, boundary.offset, scale);
@@ -152,7 +148,7 @@ void PoseCost::evaluateBoundaries(Evaluation& e) const {
 }
 
 void PoseCost::evaluateEnds(Evaluation& e) const {
-  const double scale = std::sqrt(weight_) / config_.end_deviation_m;
+  const double scale = std::sqrt(observation_.weight) / config_.end_deviation_m;
   for (const EndMatch& end : matches_.ends) {
     e.addRow(end.model.bone, body_.place(end.model, e.shape), body_.placeJacobian(end.model), end.direction, end.offset,
              scale);
@@ -162,7 +158,7 @@ void PoseCost::evaluateEnds(Evaluation& e) const {
 void PoseCost::evaluatePose(Evaluation& e) const {
   for (int i = 0; i < kDofCount; ++i, ++e.row) {
     const double deviation = observation_.deviation[i];
-    const double scale = deviation > 0 ? std::sqrt(weight_) / deviation : 0.0;
+    const double scale = deviation > 0 ? std::sqrt(observation_.weight) / deviation : 0.0;
     e.residuals[e.row] = scale * (e.q[i] - observation_.q[i]);
     if (e.wants(2)) e.J[2](e.row, i) = scale;
   }

@@ -33,11 +33,11 @@ struct Matches {
 };
 
 // All residuals of one observation; parameters: shape (kShapeCount), marker offsets (kOffsetCount), q (kDofCount).
-// `weight`: of this observation against the others. The references must outlive it.
+// The references must outlive it.
 class PoseCost : public ceres::CostFunction {
  public:
   PoseCost(const BodyTemplate& body, const PoseObservation& observation, const Matches& matches,
-           const std::array<Bone, kPartCount>& marker_bones, const JointSolveConfig& config, double weight);
+           const std::array<Bone, kPartCount>& marker_bones, const JointSolveConfig& config);
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
  private:
@@ -53,7 +53,6 @@ class PoseCost : public ceres::CostFunction {
   const Matches& matches_;
   const std::array<Bone, kPartCount>& marker_bones_;
   const JointSolveConfig& config_;
-  double weight_;
 };
 
 }  // namespace depthmocap

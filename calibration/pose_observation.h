@@ -42,6 +42,7 @@ struct PoseObservation {
   std::vector<BodyEnd> ends;
   Pose q = Pose::Zero();               // about this pose; the solve starts here
   Pose deviation = Pose::Constant(1);  // how sure: of each DoF [m or rad]; 0 = not at all
+  double weight = 1;                   // (> 0) against the other observations
 };
 
 // All classified pixels as points.
