@@ -16,6 +16,7 @@ struct JointSolveConfig {
   double surface_deviation_m = 0.012;   // [m] (> 0) beyond the paper: cloud to surface
   double surface_points = 80;           // (>= 0) the cloud counts as this many independent points; 0 = no such term
   double boundary_deviation_m = 0.012;  // [m] (> 0) beyond the paper: where parts meet
+  double waist_deviation_m = 0.025;     // [m] (> 0) the same of the torso's lower end, which no joint marks
   double end_deviation_m = 0.008;       // [m] (> 0) beyond the paper: the outline of crown, hands and feet
   double offset_deviation_m = 0.015;    // [m] (> 0) of marker offsets about the average body's
   double girth_deviation = 0.15;        // (> 0) of girths about those of the stature

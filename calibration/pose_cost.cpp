@@ -140,8 +140,10 @@ void PoseCost::evaluateCloud(Evaluation& e) const {
 }
 
 void PoseCost::evaluateBoundaries(Evaluation& e) const {
-  const double scale = std::sqrt(observation_.weight) / config_.boundary_deviation_m;
   for (const PartBoundary& boundary : observation_.boundaries) {
+    const bool is_waist = boundary.place == PartBoundary::Place::Waist;
+    const double deviation = is_waist ? config_.waist_deviation_m : config_.boundary_deviation_m;
+    const double scale = std::sqrt(observation_.weight) / deviation;
     const BoundaryPlace at = boundaryPlace(boundary.place);
     e.addRow(at.bone, at.place * e.shape, at.place, boundary.direction, boundary.offset, scale);
   }
