@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -69,28 +70,48 @@ TEST_F(LiveCommand, TracksOnAfterTheCableWasPulled) {
   EXPECT_GE(openRecording(folder_ / "rec")->frameCount(), 12U);
 }
 
-TEST_F(LiveCommand, CtrlCCompletesEveryFile) {
-  setenv("DEPTHMOCAP_TEST_RECORDING", (folder_ / "walk").c_str(), 1);
+// Starts the program on a camera that serves the recording, and ends it by a signal once the tenth frame is recorded.
+int endedBySignal(const fs::path& served, const fs::path& recording, std::vector<std::string> arguments, int number) {
+  setenv("DEPTHMOCAP_TEST_RECORDING", served.c_str(), 1);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
-    const std::string joints = (folder_ / "j.csv").string();
-    const std::string recording = (folder_ / "rec").string();
     if (freopen("/dev/null", "w", stderr) == nullptr) _exit(98);
-    execl(DEPTHMOCAP_PROGRAM, "depthmocap", "live", "--source", "openni2", "--joints", joints.c_str(), "--record",
-          recording.c_str(), nullptr);
+    execv(DEPTHMOCAP_PROGRAM, argv.data());
     _exit(99);
   }
   unsetenv("DEPTHMOCAP_TEST_RECORDING");
-  const fs::path tenth = folder_ / "rec/depth/000010.png";
+  const fs::path tenth = recording / "depth/000010.png";
   for (int i = 0; i < 600 && !fs::exists(tenth); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  kill(child, SIGINT);
+  kill(child, number);
   int status = 0;
   waitpid(child, &status, 0);
+  return status;
+}
+
+TEST_F(LiveCommand, CtrlCCompletesEveryFile) {
+  const int status = endedBySignal(folder_ / "walk", folder_ / "rec",
+                                   {"depthmocap", "live", "--source", "openni2", "--joints",
+                                    (folder_ / "j.csv").string(), "--record", (folder_ / "rec").string()},
+                                   SIGINT);
   ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_FALSE(readJointsFile(folder_ / "j.csv").empty());
   EXPECT_TRUE(json::parse(readBytes(folder_ / "rec/recording.json")).contains("recorder"));
   EXPECT_GE(openRecording(folder_ / "rec")->frameCount(), 10U);
+}
+
+TEST_F(LiveCommand, LeavesARecordingThatCanBeReadWhenItIsKilled) {
+  const int status =
+      endedBySignal(folder_ / "walk", folder_ / "rec",
+                    {"depthmocap", "record", "--source", "openni2", "--out", (folder_ / "rec").string()}, SIGKILL);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  const auto recording = openRecording(folder_ / "rec");
+  EXPECT_GE(recording->frameCount(), 9U) << "all but what was being written";
+  DepthFrame frame;
+  for (std::size_t i = 0; i < recording->frameCount(); ++i) EXPECT_NO_THROW(recording->read(i, frame)) << i;
 }
 
 TEST_F(LiveCommand, EndsWhenAnOutputFails) {
