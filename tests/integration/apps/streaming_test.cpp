@@ -1,0 +1,137 @@
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include "libtracker/recording/track_files.h"
+#include "tests/support/recording_excerpt.h"
+#include "tests/support/run_program.h"
+
+extern char** environ;
+
+namespace depthmocap {
+namespace {
+
+// A program that runs until it is told to end; its stderr goes to a file.
+class BackgroundProgram {
+ public:
+  BackgroundProgram(const std::string& arguments, std::filesystem::path errors) : errors_(std::move(errors)) {
+    std::string shell = "exec \"" DEPTHMOCAP_PROGRAM "\" " + arguments + " 2>" + quoted(errors_);
+    std::string sh = "sh";
+    std::string option = "-c";
+    char* command[] = {sh.data(), option.data(), shell.data(), nullptr};
+    EXPECT_EQ(posix_spawn(&process_, "/bin/sh", nullptr, nullptr, command, environ), 0);
+  }
+  // What follows `word` on stderr, to the end of its line; waits for it.
+  [[nodiscard]] std::string waitFor(const std::string& word) const {
+    for (int i = 0; i < 600; ++i) {
+      const std::string text = readBytes(errors_);
+      const std::size_t at = text.find(word);
+      const std::size_t end = at == std::string::npos ? at : text.find('\n', at);
+      if (end != std::string::npos) return text.substr(at + word.size(), end - at - word.size());
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    ADD_FAILURE() << word << " did not come: " << readBytes(errors_);
+    return {};
+  }
+  // The exit code after Ctrl-C.
+  int interrupt() const {
+    kill(process_, SIGINT);
+    int status = 0;
+    waitpid(process_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  std::filesystem::path errors_;
+  pid_t process_ = 0;
+};
+
+class Streaming : public testing::Test {
+ protected:
+  [[nodiscard]] std::string at(const std::string& name) const { return quoted(folder_ / name); }
+  [[nodiscard]] static std::string recording(const std::string& name) { return quoted(bundledRecording(name)); }
+  void replay(const std::string& options) const {
+    const ProgramResult result = runProgram("replay " + recording("squat") + " --last 19 " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+  TemporaryFolder folder_;
+};
+
+std::string lineWith(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find(word);
+  return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+}
+
+TEST_F(Streaming, BvhInCentimetresWithRigidBones) {
+  replay("--bvh " + at("m.bvh") + " --bvh-rigid");
+  replay("--bvh " + at("cm.bvh") + " --bvh-rigid --bvh-unit cm");
+  const std::string metres = readBytes(folder_ / "m.bvh");
+  const std::string centimetres = readBytes(folder_ / "cm.bvh");
+  const auto hip = [](const std::string& bvh) {
+    const std::string line = lineWith(bvh.substr(bvh.find("LeftLeg")), "OFFSET");
+    return std::stod(line.substr(line.find(' ', 7)));
+  };
+  EXPECT_NEAR(hip(centimetres), 100 * hip(metres), 1e-3);
+  EXPECT_EQ(lineWith(metres, "Frame Time:").substr(0, 19), "Frame Time: 0.03333");
+  EXPECT_EQ(metres.find("CHANNELS 6", metres.find("CHANNELS 6") + 1), std::string::npos);
+}
+
+TEST_F(Streaming, SmoothingCalmsAllOutputsAlike) {
+  replay("--joints " + at("plain.csv") + " --gltf " + at("plain.glb"));
+  replay("--joints " + at("calm.csv") + " --gltf " + at("calm.glb") + " --smooth 1");
+  replay("--joints " + at("again.csv") + " --gltf " + at("again.glb") + " --smooth 1 --threads 1");
+  EXPECT_EQ(readBytes(folder_ / "calm.csv"), readBytes(folder_ / "again.csv"));
+  EXPECT_EQ(readBytes(folder_ / "calm.glb"), readBytes(folder_ / "again.glb"));
+  EXPECT_NE(readBytes(folder_ / "calm.glb"), readBytes(folder_ / "plain.glb"));
+  const auto roughness = [&](const char* name) {
+    const auto rows = readJointsFile(folder_ / name);
+    double sum = 0;
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+      sum += (rows[i].p_camera - 2 * rows[i - 1].p_camera + rows[i - 2].p_camera).norm();
+    }
+    return sum;
+  };
+  EXPECT_LT(roughness("calm.csv"), 0.7 * roughness("plain.csv"));
+}
+
+TEST_F(Streaming, WrongValuesAreWrongUsage) {
+  for (const char* option : {"--smooth 2", "--smooth x", "--bvh-unit inch", "--view-port 70000"}) {
+    EXPECT_EQ(runProgram("replay " + recording("squat") + " " + option).exit_code, 2) << option;
+  }
+  EXPECT_EQ(runProgram("replay " + recording("squat") + " --vmc nowhere").exit_code, 1);
+  EXPECT_EQ(runProgram("serve --address example.com --port 0").exit_code, 1);
+}
+
+TEST_F(Streaming, InterruptedReplayCompletesItsFiles) {
+  // At the pace of the recording, because of --vmc.
+  const BackgroundProgram program("replay " + recording("walk") + " --view --view-port 0 --vmc localhost:9 --joints " +
+                                      at("j.csv") + " --bvh " + at("m.bvh") + " --gltf " + at("m.glb"),
+                                  folder_ / "errors");
+  EXPECT_EQ(program.waitFor("view: ").rfind("http://127.0.0.1:", 0), 0U);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_EQ(program.interrupt(), 0);
+  const auto rows = readJointsFile(folder_ / "j.csv");
+  EXPECT_GT(rows.size(), 5U);
+  EXPECT_LT(rows.size(), 120U);
+  EXPECT_EQ(std::stoul(lineWith(readBytes(folder_ / "m.bvh"), "Frames:").substr(7)), rows.size());
+  EXPECT_EQ(readBytes(folder_ / "m.glb").substr(0, 4), "glTF");
+}
+
+TEST_F(Streaming, PageDoesNotChangeFiles) {
+  replay("--joints " + at("plain.csv"));
+  const BackgroundProgram program(
+      "replay " + recording("squat") + " --last 19 --view --view-port 0 --joints " + at("viewed.csv"),
+      folder_ / "errors");
+  EXPECT_EQ(program.waitFor("the page stays"), " until Ctrl-C");
+  EXPECT_EQ(program.interrupt(), 0);
+  EXPECT_EQ(readBytes(folder_ / "plain.csv"), readBytes(folder_ / "viewed.csv"));
+}
+
+}  // namespace
+}  // namespace depthmocap
