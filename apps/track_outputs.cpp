@@ -7,13 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "apps/animation_files.h"
 #include "apps/preview.h"
-#include "libtracker/body/builtin_body.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/camera.h"
 #include "libtracker/core/error.h"
-#include "libtracker/motion/bvh_writer.h"
-#include "libtracker/output/gltf.h"
 #include "libtracker/output/pose_smoother.h"
 #include "libtracker/output/vmc_sender.h"
 #include "libtracker/recording/track_files.h"
@@ -54,61 +52,6 @@ class LabelWriter {
 
  private:
   fs::path folder_;
-};
-
-// The motion as animation files, which are written at the end: a body's bone lengths are known only then.
-struct AnimationFiles {
-  explicit AnimationFiles(const TrackOptions& options, double recording_fps)
-      : bvh(options.bvh),
-        gltf(options.gltf),
-        bvh_rigid(options.bvh_rigid),
-        bvh_scale(options.bvh_unit == "cm" ? kCentimetres : 1.0),
-        fps(recording_fps) {}
-
-  [[nodiscard]] bool wanted() const { return !bvh.empty() || !gltf.empty(); }
-  void add(const TrackedFrame& tracked) {
-    if (!wanted()) return;
-    if (tracked.state == TrackState::Lost) {
-      motion.addLost(tracked.time_s);
-    } else {
-      motion.add(tracked.time_s, tracked.q, tracked.lengths);
-    }
-  }
-  // `lengths`: the body's at the end.
-  void write(const BoneLengths& lengths) {
-    if (!wanted()) return;
-    if (motion.empty()) {
-      throw Error("nobody was tracked, so there is no motion to write", (bvh.empty() ? gltf : bvh).string());
-    }
-    const MotionTrack track = motion.track(lengths);
-    if (!bvh.empty()) writeBvh(track);
-    if (!gltf.empty()) writeGltf(gltf, makeBuiltinBody(track.lengths), track);
-    bvh.clear();
-    gltf.clear();
-  }
-
- private:
-  static constexpr double kCentimetres = 100.0;
-
-  void writeBvh(const MotionTrack& track) const {
-    const bool moving = track.sizeChanges() && !bvh_rigid;
-    BvhWriter writer(bvh, makeSkeleton(track.lengths), 1.0 / track.frameTime_s(fps), bvh_scale, moving);
-    for (const MotionTrack::Frame& frame : track.frames) {
-      if (moving) {
-        writer.write(frame.q, makeSkeleton(track.lengths.scaled(frame.scale)));
-      } else {
-        writer.write(frame.q);
-      }
-    }
-    writer.finish();
-  }
-
-  fs::path bvh;
-  fs::path gltf;
-  bool bvh_rigid;
-  double bvh_scale;
-  double fps;
-  MotionTrackBuilder motion;
 };
 
 }  // namespace
