@@ -10,7 +10,7 @@
 #include "libtracker/openni/openni_stream.h"
 #include "libtracker/recording/undistort.h"
 #include "libtracker/sensor/camera_calibration.h"
-#include "libtracker/sensor/sensor_clock_map.h"
+#include "libtracker/sensor/frame_stamps.h"
 
 namespace depthmocap {
 
@@ -78,20 +78,13 @@ class OpenNiSource : public DepthSource {
   SourceState next(SensorFrame& frame, std::chrono::milliseconds timeout) override;
 
  private:
-  void number(SensorFrame& frame);
-
   std::unique_ptr<OpenNiStream> stream_;
   double unit_m_;
   RecordingInfo info_;
   std::vector<std::int32_t> undistortion_;  // empty: none
   OpenNiFrame raw_;
-  SensorClockMap clock_;
+  FrameStamps stamps_;
   std::string problem_;
-  bool first_ = true;
-  std::int64_t first_index_ = 0;
-  double first_time_s_ = 0;
-  std::int64_t last_number_ = -1;
-  double last_time_s_ = 0;
 };
 
 SourceState OpenNiSource::next(SensorFrame& frame, std::chrono::milliseconds timeout) {
@@ -105,27 +98,9 @@ SourceState OpenNiSource::next(SensorFrame& frame, std::chrono::milliseconds tim
     problem_ = error.what();
     return SourceState::Damaged;
   }
-  frame.taken = SensorClock::now();  // arrival; number() corrects it
-  number(frame);
+  stamps_.stamp({raw_.index, raw_.time_s, false}, info_.fps, frame);
   toMetres(raw_.steps, unit_m_, undistortion_, frame.depth.depth);
   return SourceState::Frame;
-}
-
-// Indices and times from 0. Drivers that do not count, or whose clock stands still, are counted and timed here.
-void OpenNiSource::number(SensorFrame& frame) {
-  const SensorClock::time_point arrived = frame.taken;
-  if (std::exchange(first_, false)) {
-    first_index_ = raw_.index;
-    first_time_s_ = raw_.time_s;
-  }
-  const std::int64_t count = raw_.index - first_index_;
-  double time_s = raw_.time_s - first_time_s_;
-  if (last_number_ >= 0 && !(time_s > last_time_s_)) time_s = last_time_s_ + 1.0 / info_.fps;
-  frame.depth.frame = count > last_number_ ? count : last_number_ + 1;
-  frame.depth.time_s = time_s;
-  frame.taken = clock_.taken(time_s, arrived);
-  last_number_ = frame.depth.frame;
-  last_time_s_ = time_s;
 }
 
 }  // namespace

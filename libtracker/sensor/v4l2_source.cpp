@@ -1,18 +1,18 @@
 #include "libtracker/sensor/v4l2_source.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "libtracker/recording/undistort.h"
 #include "libtracker/sensor/camera_calibration.h"
-#include "libtracker/sensor/sensor_clock_map.h"
+#include "libtracker/sensor/frame_stamps.h"
 #include "libtracker/sensor/v4l2_stream.h"
 
 namespace depthmocap {
 
 namespace {
 
-constexpr double kFocalLength = 575.8 / 640;  // of the width: the Kinect of 2010 and its relatives
+constexpr std::uint32_t kBackwards = 1U << 31U;  // a larger step of a count of 32 bits is one back
+constexpr double kFocalLength = 575.8 / 640;     // of the width: the Kinect of 2010 and its relatives
 
 // What is known of a camera by the size of its pictures alone. One copy of a Kinect of 2013 differs from the next by a
 // pixel or two.
@@ -54,51 +54,27 @@ class V4l2Source : public DepthSource {
   SourceState next(SensorFrame& frame, std::chrono::milliseconds timeout) override;
 
  private:
-  void number(const V4l2Picture& picture, SensorFrame& frame);
-
   V4l2Stream stream_;
   bool raw_values_;  // the user's unit is of the camera's own numbers
   RecordingInfo info_;
   std::vector<std::int32_t> undistortion_;  // empty: none
   Image<std::uint16_t> steps_;
-  SensorClockMap clock_;
-  bool first_ = true;
-  std::uint32_t first_sequence_ = 0;
-  double first_time_s_ = 0;
-  std::int64_t last_number_ = -1;
-  double last_time_s_ = 0;
+  FrameStamps stamps_;
+  std::uint32_t last_sequence_ = 0;
+  std::int64_t count_ = 0;  // the driver's, which may run over, made to grow
 };
 
 SourceState V4l2Source::next(SensorFrame& frame, std::chrono::milliseconds timeout) {
   V4l2Picture picture;
   const SourceState state = stream_.next(picture, timeout);
   if (state != SourceState::Frame) return state;
-  number(picture, frame);
+  const std::uint32_t step = picture.sequence - std::exchange(last_sequence_, picture.sequence);
+  count_ += step < kBackwards ? step : 0;
+  // SensorClock is the kernel's monotonic clock.
+  stamps_.stamp({count_, picture.time_s, picture.monotonic}, info_.fps, frame);
   unpack(stream_.format(), picture.bytes, raw_values_, steps_);
   toMetres(steps_, info_.depth_unit_m, undistortion_, frame.depth.depth);
   return SourceState::Frame;
-}
-
-// Numbers and times from 0. Drivers that do not count, or give no time, are counted and timed here. The driver's count
-// may run over.
-void V4l2Source::number(const V4l2Picture& picture, SensorFrame& frame) {
-  const SensorClock::time_point arrived = SensorClock::now();
-  if (std::exchange(first_, false)) {
-    first_sequence_ = picture.sequence;
-    first_time_s_ = picture.time_s;
-  }
-  const auto count = static_cast<std::int64_t>(picture.sequence - first_sequence_);
-  double time_s = picture.time_s - first_time_s_;
-  const bool timed = last_number_ < 0 || time_s > last_time_s_;
-  if (!timed) time_s = last_time_s_ + 1.0 / info_.fps;
-  frame.depth.frame = count > last_number_ ? count : last_number_ + 1;
-  frame.depth.time_s = time_s;
-  const SensorClock::time_point stamped(
-      std::chrono::duration_cast<SensorClock::duration>(std::chrono::duration<double>(picture.time_s)));
-  // steady_clock is the kernel's monotonic clock.
-  frame.taken = picture.monotonic && timed ? std::min(stamped, arrived) : clock_.taken(time_s, arrived);
-  last_number_ = frame.depth.frame;
-  last_time_s_ = time_s;
 }
 
 }  // namespace

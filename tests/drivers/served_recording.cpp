@@ -1,13 +1,45 @@
 #include "tests/drivers/served_recording.h"
 
 #include <cmath>
+#include <csetjmp>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include <png.h>
+
 namespace depthmocap::testdriver {
+
+namespace {
+
+// A 16-bit grey PNG; empty if it is none.
+std::vector<std::uint16_t> readPicture(const std::string& path) {
+  std::vector<std::uint16_t> pixels;
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return pixels;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  if (setjmp(png_jmpbuf(png)) == 0) {
+    png_init_io(png, file);
+    png_read_png(png, info, PNG_TRANSFORM_SWAP_ENDIAN, nullptr);
+    const std::size_t width = png_get_image_width(png, info);
+    const std::size_t height = png_get_image_height(png, info);
+    if (png_get_rowbytes(png, info) == 2 * width) {
+      pixels.resize(width * height);
+      for (std::size_t y = 0; y < height; ++y) {
+        std::memcpy(&pixels[y * width], png_get_rows(png, info)[y], 2 * width);
+      }
+    }
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  std::fclose(file);
+  return pixels;
+}
+
+}  // namespace
 
 ServedRecording readServedRecording(const std::string& folder) {
   ServedRecording recording;
@@ -24,12 +56,10 @@ ServedRecording readServedRecording(const std::string& folder) {
   while (std::getline(index, line)) {
     const std::size_t first = line.find(',');
     const std::size_t second = line.find(',', first + 1);
-    const cv::Mat image = cv::imread(folder + "/" + line.substr(second + 1), cv::IMREAD_UNCHANGED);
-    if (image.type() != CV_16UC1) continue;
     ServedRecording::Frame frame;
     frame.time_us = static_cast<std::uint64_t>(std::llround(std::stod(line.substr(first + 1)) * 1e6));
-    frame.steps.assign(image.ptr<std::uint16_t>(), image.ptr<std::uint16_t>() + image.total());
-    recording.frames.push_back(std::move(frame));
+    frame.steps = readPicture(folder + "/" + line.substr(second + 1));
+    if (!frame.steps.empty()) recording.frames.push_back(std::move(frame));
   }
   return recording;
 }

@@ -77,6 +77,16 @@ TEST_F(V4l2SourceTest, ShowsWhatTheDriverDroppedAsGaps) {
   }
 }
 
+TEST_F(V4l2SourceTest, CountsOnWhereTheDriverBeginsAnew) {
+  for (const std::uint32_t i : {7U, 8U, 0U, 1U}) fake_.pictures.push_back(picture(i));
+  for (std::size_t i = 0; i < 4; ++i) fake_.pictures[i].time_s = static_cast<double>(i + 1);
+  const auto source = open();
+  for (const int expected : {0, 1, 2, 3}) {
+    ASSERT_EQ(source->next(frame_, kShort), SourceState::Frame);
+    EXPECT_EQ(frame_.depth.frame, expected);
+  }
+}
+
 TEST_F(V4l2SourceTest, CountsAndTimesForDriversThatDoNot) {
   for (int i = 0; i < 3; ++i) {
     fake_.pictures.push_back(picture(0));
