@@ -14,10 +14,12 @@
 #include "apps/commands.h"
 #include "apps/progress.h"
 #include "apps/shipped_files.h"
+#include "apps/stop_request.h"
 #include "calibration/calibrator.h"
 #include "calibration/pose_collector.h"
 #include "libtracker/core/error.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/sensor/open_source.h"
 #include "libtracker/tracker/tracker.h"
 
 namespace depthmocap {
@@ -28,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostTracked = 300;  // frames in which other poses are looked for
 constexpr int kOtherFrames = 12;
+constexpr std::chrono::milliseconds kWait{200};  // for one frame of a camera
 constexpr std::size_t kFewestOthers = 4;
 
 struct CalibrateOptions {
@@ -40,6 +43,7 @@ struct CalibrateOptions {
   bool tpose_only = false;
   CalibratorConfig config;
   double tolerance_deg = 15;
+  double seconds = 60;
 };
 
 std::shared_ptr<const CalibratorModels> loadModels(const CalibrateOptions& o) {
@@ -90,28 +94,79 @@ std::vector<PoseObservation> otherPoses(const CalibrateOptions& o, RecordingRead
   return collector.chosen(kOtherFrames);
 }
 
-void calibrate(CalibrateOptions o) {
-  o.config.check.tolerance_rad = o.tolerance_deg * std::numbers::pi / 180.0;
+// What a calibration gave and how long its solve took.
+struct Calibration {
+  CalibratedActor actor;
+  RecordingInfo info;
+  double solve_s = 0;
+};
+
+CalibratedActor timedSolve(Calibrator& calibrator, double& seconds) {
+  const auto start = Clock::now();
+  CalibratedActor actor = calibrator.solve();
+  seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return actor;
+}
+
+// Until enough good frames have come; tells the actor what to change.
+void watch(DepthSource& source, Calibrator& calibrator, double limit_s) {
+  const StopRequest on_ctrl_c;
+  const auto start = SensorClock::now();
+  SensorFrame frame;
+  std::string said;
+  while (!calibrator.enough() && !StopRequest::made()) {
+    if (SensorClock::now() - start > std::chrono::duration<double>(limit_s)) break;
+    const SourceState state = source.next(frame, kWait);
+    if (state == SourceState::Ended) break;
+    if (state != SourceState::Frame) continue;
+    const TPoseVerdict verdict = calibrator.add(frame.depth);
+    const std::string text = verdict.good() ? "good, hold still" : verdict.advice;
+    if (text != said) std::cerr << text << '\n';
+    said = text;
+  }
+}
+
+Calibration calibrateLive(const CalibrateOptions& o) {
+  const auto source = openSource(o.recording.string(), {});
+  Calibrator calibrator(loadModels(o), source->info().camera, o.config);
+  watch(*source, calibrator, o.seconds);
+  Calibration result;
+  result.info = source->info();
+  result.actor = timedSolve(calibrator, result.solve_s);
+  if (!o.preview.empty()) {
+    writeCalibrationPicture(o.preview, calibrator.shown(), result.actor, result.info.camera);
+  }
+  return result;
+}
+
+Calibration calibrateRecording(const CalibrateOptions& o) {
   const auto reader = openRecording(o.recording);
   const auto models = loadModels(o);
   Calibrator calibrator(models, reader->info().camera, o.config);
   collect(*reader, calibrator);
-  const auto start = Clock::now();
-  CalibratedActor actor = calibrator.solve();
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  Calibration result;
+  result.info = reader->info();
+  result.actor = timedSolve(calibrator, result.solve_s);
   if (!o.tpose_only) {
-    const auto others = otherPoses(o, *reader, *models, scaledActor(actor, 1.0 / actor.depth_scale));
-    if (others.size() >= kFewestOthers) actor = calibrator.solve(others);
+    const auto others = otherPoses(o, *reader, *models, scaledActor(result.actor, 1.0 / result.actor.depth_scale));
+    if (others.size() >= kFewestOthers) result.actor = calibrator.solve(others);
   }
-  actor.camera = reader->info().camera_name;
-  if (!o.preview.empty()) writeCalibrationPicture(o.preview, calibrator.shown(), actor, reader->info().camera);
-  writeActorFile(o.out, actor);
-  std::cerr << fmt::format(
-      "a body of {:.3f} m from {} frames of T-pose (solved in {:.2f} s) and {} in other poses; surface within {:.1f} "
-      "mm, "
-      "confidence {:.2f}\n",
-      actor.stature(), actor.fit.tpose_frames, seconds, actor.fit.other_frames, 1000 * actor.fit.surface_m,
-      actor.fit.confidence);
+  if (!o.preview.empty()) {
+    writeCalibrationPicture(o.preview, calibrator.shown(), result.actor, result.info.camera);
+  }
+  return result;
+}
+
+void calibrate(CalibrateOptions o) {
+  o.config.check.tolerance_rad = o.tolerance_deg * std::numbers::pi / 180.0;
+  const bool is_camera = !fs::exists(o.recording) && checkSourceName(o.recording.string()).empty();
+  Calibration result = is_camera ? calibrateLive(o) : calibrateRecording(o);
+  result.actor.camera = result.info.camera_name;
+  writeActorFile(o.out, result.actor);
+  const CalibratedActor::Fit& fit = result.actor.fit;
+  std::cerr << fmt::format("a body of {:.3f} m from {} frames of T-pose (solved in {:.2f} s) and {} in other poses; ",
+                           result.actor.stature(), fit.tpose_frames, result.solve_s, fit.other_frames)
+            << fmt::format("surface within {:.1f} mm, confidence {:.2f}\n", 1000 * fit.surface_m, fit.confidence);
 }
 
 }  // namespace
@@ -119,8 +174,10 @@ void calibrate(CalibrateOptions o) {
 void addCalibrateCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("calibrate", "Measures an actor who stands in a T-pose.");
   const auto o = std::make_shared<CalibrateOptions>();
-  command->add_option("recording", o->recording, "Recording with at least ten frames of T-pose")
-      ->type_name("REC")
+  command
+      ->add_option("recording", o->recording,
+                   "Recording with at least ten frames of T-pose, or a camera as live names it")
+      ->type_name("REC-or-SRC")
       ->required();
   command->add_option("--out", o->out, "Actor file to write, for replay --actor")->type_name("A.json")->required();
   command->add_option("--preview", o->preview, "Picture of the fitted cylinders over the depth points, PNG")
@@ -132,6 +189,9 @@ void addCalibrateCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--tolerance", o->tolerance_deg, "How far the arms may be from level and the body turned [deg]")
       ->check(CLI::Range(1.0, 40.0))
+      ->capture_default_str();
+  command->add_option("--seconds", o->seconds, "A camera: how long to wait for the T-pose")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--forest", o->forest, "Body-part classifier that the tracker will use");
   command->add_option("--posedb", o->posedb, "Pose database, for the frames that are no T-pose");
