@@ -11,6 +11,7 @@
 #include "apps/view/view_frame.h"
 #include "apps/view_options.h"
 #include "libtracker/core/error.h"
+#include "libtracker/output/vmc_listener.h"
 #include "libtracker/sensor/recorder.h"
 
 namespace depthmocap {
@@ -51,7 +52,9 @@ struct LiveView::Impl {
         info(recording_info),
         tracker(t),
         encoder(info.camera),
-        page(webServerConfig(o.view), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}) {}
+        page(webServerConfig(o.view), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}) {
+    if (o.view.vmc_listen > 0) assistants.emplace(o.view.vmc_listen);
+  }
 
   void obey(const ViewCommand& command, const DepthFrame& frame);
   void record(bool on);
@@ -66,6 +69,7 @@ struct LiveView::Impl {
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<LiveCalibration> calibration;
   LivePage page;
+  std::optional<VmcListener> assistants;
 };
 
 void LiveView::Impl::obey(const ViewCommand& command, const DepthFrame& frame) {
@@ -101,6 +105,7 @@ void LiveView::Impl::record(bool on) {
 }
 
 void LiveView::Impl::startCalibration() {
+  if (calibration) return;
   calibration = std::make_unique<LiveCalibration>(options, info);
   page.sendEvent("calibrate", calibration->text());
 }
@@ -137,6 +142,7 @@ void LiveView::onFrame(const DepthFrame& frame, const TrackedFrame& shown) {
     s.page.sendFrame(s.encoder.encode(frame.depth, shown.labels, shown, s.figures));
   }
   s.calibrate(frame);
+  if (s.assistants && s.assistants->calibrationAsked()) s.obey({.action = ViewAction::Calibrate}, frame);
   while (const auto command = s.page.nextCommand()) s.obey(*command, frame);
 }
 

@@ -15,6 +15,7 @@ struct ViewOptions {
   std::string address = "127.0.0.1";
   int port = 8010;
   std::string token;
+  int vmc_listen = 0;                  // UDP port; 0 = none
   std::filesystem::path folder = ".";  // for what the page records and calibrates
 };
 

@@ -14,6 +14,11 @@ void addViewOptions(CLI::App& command, ViewOptions& o) {
       ->capture_default_str();
   command.add_option("--view-address", o.address, "Numeric address to listen on; others than 127.0.0.1 need a token")
       ->capture_default_str();
+  command
+      .add_option("--vmc-listen", o.vmc_listen,
+                  "UDP port, as a rule 39540, on which a VMC assistant may start the calibration of live --view")
+      ->check(CLI::Range(1, 65535))
+      ->needs("--view");
   command.add_option("--view-folder", o.folder, "Folder for what the page records and calibrates")
       ->capture_default_str();
   command.add_option("--view-token", o.token, "Token that requests must show (default: a random one where needed)");

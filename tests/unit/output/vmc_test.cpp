@@ -13,6 +13,7 @@
 #include "libtracker/core/random.h"
 #include "libtracker/output/floor_origin.h"
 #include "libtracker/output/vmc_bones.h"
+#include "libtracker/output/vmc_listener.h"
 #include "libtracker/output/vmc_sender.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/joint_limits.h"
@@ -216,6 +217,45 @@ TEST(VmcSender, BadTargetsAreNamed) {
     EXPECT_NE(errorOf([&] { VmcSender sender(target); }).find("HOST:PORT"), std::string::npos) << target;
   }
   EXPECT_EQ(errorOf([&] { VmcSender sender("[::1]:39539"); }), "");
+}
+
+// An OSC text of zeros to the next multiple of four.
+std::string oscText(std::string text) {
+  text.resize((text.size() / 4 + 1) * 4, '\0');
+  return text;
+}
+
+TEST(VmcListener, HearsThatACalibrationIsAskedFor) {
+  VmcListener listener(0);
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(listener.port()));
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const auto send = [&](const std::string& packet) {
+    ::sendto(socket, packet.data(), packet.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to);
+  };
+  const auto heard = [&] {
+    for (int i = 0; i < 50; ++i) {
+      if (listener.calibrationAsked()) return true;
+      usleep(2000);
+    }
+    return false;
+  };
+  EXPECT_FALSE(listener.calibrationAsked());
+  send(oscText("/VMC/Ext/Set/Calib/Exec") + oscText(",i") + std::string(4, '\0'));
+  EXPECT_TRUE(heard());
+  send(oscText("/VMC/Ext/Set/Calib/Ready") + oscText(","));
+  EXPECT_TRUE(heard());
+  Random random(6);
+  for (int i = 0; i < 50; ++i) {
+    std::string garbage = i % 2 == 0 ? oscText("/VMC/Ext/Set/Period") : "";
+    for (int k = 0; k < 60; ++k) garbage += static_cast<char>(random.below(256));
+    send(garbage);
+  }
+  EXPECT_FALSE(heard());
+  EXPECT_NE(errorOf([&] { VmcListener other(listener.port()); }).find("--vmc-listen"), std::string::npos);
+  ::close(socket);
 }
 
 TEST(FloorOrigin, IsBelowTheFirstPlaceAtTheHeightOfTheSoles) {
