@@ -114,7 +114,7 @@ void readMarkers(const json& file, const std::string& where, ActorModel& model) 
   if (given == nullptr) return;
   for (const auto& [name, marker] : given->items()) {
     const auto part = static_cast<std::size_t>(partNamed(name, where));
-    const std::string at = where + ": marker " + name;
+    const std::string at = fmt::format("{}: marker {}", where, name);
     if (!marker.is_object()) throw Error("must be an object", at);
     model.markers[part].bone = boneNamed(jsonString(marker, "bone", at), at);
     for (int axis = 0; axis < 3; ++axis) {

@@ -27,6 +27,7 @@ constexpr double kMinRivalHeight_m = 1.0;
 constexpr std::size_t kFewestPixels = 300;  // classified, of an actor
 constexpr int kStride_px = 2;
 constexpr double kScaleTolerance = 0.02;
+constexpr double kLeastConfidence = 0.2;    // good fits have 0.6 and more, rough old recordings 0.4
 constexpr double kAverageStature_m = 1.69;  // of the bodies that the T-pose forest was trained with
 
 // A good frame, kept until the solve.
@@ -295,6 +296,13 @@ CalibratedActor Calibrator::solve(const std::vector<PoseObservation>& others) {
   std::vector<const GoodFrame*> frames;
   for (const GoodFrame& frame : s.good) frames.push_back(&frame);
   const CalibratedActor actor = s.fit(frames, others);
+  if (actor.fit.confidence < kLeastConfidence) {
+    throw Error(
+        fmt::format("the body that fits best lies {:.0f} mm off the depth points: this is no T-pose, or no bare "
+                    "view of a person",
+                    1000 * actor.fit.surface_m),
+        "calibration", "record again, without long coats and away from furniture");
+  }
   return s.config.stature_m ? withStature(actor, *s.config.stature_m) : actor;
 }
 

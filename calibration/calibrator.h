@@ -51,8 +51,8 @@ class Calibrator {
   [[nodiscard]] bool enough() const;
 
   // The body by the frames so far. Throws Error saying why the recording does not do and what to change: too few good
-  // frames (with the most frequent fault), two people. `others`: frames in other poses (PoseCollector), which are
-  // solved for together with the T-pose.
+  // frames (with the most frequent fault), two people, no body that fits. `others`: frames in other poses
+  // (PoseCollector), which are solved for together with the T-pose.
   CalibratedActor solve(const std::vector<PoseObservation>& others = {});
 
   // Of the last solve(): the frame that a preview shows, its mask, the limbs and the pose.
