@@ -148,7 +148,8 @@ BodyOutline measureOutline(const std::vector<Eigen::Vector3f>& points) {
 TPoseVerdict checkTPose(const MaskImage& mask, const BodyOutline& outline, const TPoseCheckConfig& config) {
   const std::string cut = outOfImage(mask);
   if (!cut.empty()) return fault(TPoseFault::OutOfImage, cut);
-  if (const TPoseVerdict place = checkPlace(outline, config); !place.good()) return place;
+  TPoseVerdict place = checkPlace(outline, config);
+  if (!place.good()) return place;
 
   const ArmAngle left = armAngle(outline.left_hand, outline);
   const ArmAngle right = armAngle(outline.right_hand, outline);
