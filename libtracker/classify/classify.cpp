@@ -82,21 +82,29 @@ void decide(const Forest& forest, const ClassifyConfig& config, ClassifyMemory& 
   const std::size_t count = result.pixels.size();
   if (forest.facings == 1) {
     result.facing.fill(1.0F / kFacingCount);
+    result.facing_by_image = result.facing;
   } else {
     memory.evidence.assign((count + kPixelsPerTask - 1) / kPixelsPerTask, {});
     forEachTask(config.threads, count, [&](std::size_t task, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) addEvidence(memory.votes[i], memory.evidence[task]);
     });
     result.facing = facingProbabilities(memory.evidence, count, config.facing_prior);
+    result.facing_by_image = facingProbabilities(memory.evidence, count, ClassifyConfig{}.facing_prior);
   }
-  forEachTask(config.threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      partProbabilities(memory.votes[i], result.facing, result.pixels[i].probability);
-    }
-  });
+  assumeFacing(result.facing, config.threads, memory, result);
 }
 
 }  // namespace
+
+void assumeFacing(const FacingShares& facing, int threads, const ClassifyMemory& memory, ClassifiedPixels& pixels) {
+  DMC_CHECK(memory.votes.size() == pixels.pixels.size());
+  pixels.facing = facing;
+  forEachTask(threads, pixels.pixels.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      partProbabilities(memory.votes[i], facing, pixels.pixels[i].probability);
+    }
+  });
+}
 
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifyMemory& memory, ClassifiedPixels& result) {

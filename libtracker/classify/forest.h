@@ -76,7 +76,10 @@ struct ClassifyMemory {
 // facing, the image decides the facing, and each pixel's parts are taken from the distribution that fits.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifyMemory& memory, ClassifiedPixels& result);
-// The same for a single image.
+// Every pixel's distribution again, as if the facings had these probabilities (>= 0, not all 0); `memory` and `pixels`
+// as the last classify() left them.
+void assumeFacing(const FacingShares& facing, int threads, const ClassifyMemory& memory, ClassifiedPixels& pixels);
+// classify() for a single image.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifiedPixels& result);
 

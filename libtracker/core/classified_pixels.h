@@ -20,6 +20,7 @@ struct ClassifiedPixels {
   std::vector<Pixel> pixels;
   // Probability of each side being the one that is seen; all equal where the classifier does not know.
   FacingShares facing = {0.25F, 0.25F, 0.25F, 0.25F};
+  FacingShares facing_by_image = {0.25F, 0.25F, 0.25F, 0.25F};  // the same without what was known before
 };
 
 }  // namespace depthmocap

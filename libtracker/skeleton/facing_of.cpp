@@ -7,7 +7,8 @@
 namespace depthmocap {
 namespace {
 
-constexpr float kSurpriseShare = 0.1F;  // of a facing that the pose speaks against, over that of one it speaks for
+// Of a facing that the pose speaks against, over that of one it speaks for: nobody turns round between two frames.
+constexpr float kSurpriseShare = 0.002F;
 
 double bearingOf(Facing facing) {
   return static_cast<double>(facing) * std::numbers::pi / 2.0;

@@ -151,6 +151,18 @@ TEST(Classify, WhatIsKnownOfTheFacingOverrulesTheImage) {
   config.facing_prior = {1, 0, 0, 0};
   classify(facingForest(), DepthImage(40, 10, 1.0F), MaskImage(40, 10, 1), kFocal_px, config, result);
   EXPECT_EQ(result.facing[0], 1.0F);
+  EXPECT_GT(result.facing_by_image[static_cast<std::size_t>(Facing::Back)], 0.99F);
+  for (const auto& pixel : result.pixels) EXPECT_EQ(mostProbablePart(pixel), pixel.x < 20 ? 0 : 2);
+}
+
+TEST(AssumeFacing, DecidesThePartsAgain) {
+  ClassifiedPixels result;
+  ClassifyMemory memory;
+  classify(facingForest(), DepthImage(40, 10, 1.0F), MaskImage(40, 10, 1), kFocal_px, {.stride = 1}, memory, result);
+  FacingShares front{};
+  front[static_cast<std::size_t>(Facing::Front)] = 1.0F;
+  assumeFacing(front, 2, memory, result);
+  EXPECT_EQ(result.facing, front);
   for (const auto& pixel : result.pixels) EXPECT_EQ(mostProbablePart(pixel), pixel.x < 20 ? 0 : 2);
 }
 
