@@ -31,7 +31,7 @@ struct CylinderFitConfig {
   double min_radius_m = 0.02;   // [m]
   double max_radius_m = 0.16;   // [m] of a trunk twice as much
   double inlier_m = 0.015;      // [m] from the surface
-  double max_axis_tilt = 0.22;  // [rad] of the axis from the expected one
+  double max_axis_tilt = 0.45;  // [rad] of the axis from the expected one
   int iterations = 300;
   std::uint64_t seed = 1;
 };
