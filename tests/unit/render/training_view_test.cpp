@@ -9,7 +9,7 @@ namespace depthmocap {
 namespace {
 
 const BodySurface& body() {
-  static const BodySurface surface = makeBuiltinBody({});
+  static const BodySurface surface = makeBuiltinBody(BodyShape{});
   return surface;
 }
 
