@@ -9,4 +9,7 @@ if(DEPTHMOCAP_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr
                       -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  # Eigen changes its allocator under AddressSanitizer; PCL's library, which frees what our templates allocate, was built
+  # without it.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
