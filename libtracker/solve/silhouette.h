@@ -1,9 +1,6 @@
 #pragma once
 #include <Eigen/Core>
-#include <cstdint>
-#include <vector>
 
-#include "libtracker/core/camera.h"
 #include "libtracker/core/image.h"
 
 namespace depthmocap {
@@ -24,10 +21,8 @@ class Silhouette {
  private:
   void take(int x, int y, int from_x, int from_y);
 
-  int width_ = 0;  // [cells]
-  int height_ = 0;
   bool empty_ = true;
-  std::vector<Eigen::Vector2i> nearest_;  // [cells] of each cell
+  Image<Eigen::Vector2i> nearest_;  // [cells] of each cell
 };
 
 }  // namespace depthmocap
