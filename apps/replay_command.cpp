@@ -147,7 +147,7 @@ void replay(const ReplayOptions& options) {
 void addReplayCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "Tracks a recording and writes the motion.");
   const auto options = std::make_shared<ReplayOptions>();
-  command->add_option("recording", options->recording, "Recording: a depthmocap or TUM RGB-D folder")
+  command->add_option("recording", options->recording, "Recording: a depthmocap or TUM RGB-D folder, or an .oni file")
       ->type_name("REC")
       ->required();
   addTrackOptions(*command, options->track);

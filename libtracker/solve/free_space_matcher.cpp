@@ -79,18 +79,4 @@ void FreeSpaceMatcher::match(const PlacedSurface& placed, SurfaceMatches& matche
   for (std::size_t i = 0; i < kept; ++i) matches.push_back(found_[i * found_.size() / kept]);
 }
 
-double FreeSpaceMatcher::misfit(const PlacedSurface& placed, double limit_m) const {
-  if (silhouette_.empty()) return 0;
-  double sum = 0;
-  std::size_t count = 0;
-  for (const auto& part : placed.parts) {
-    for (const PlacedSurface::Point& point : part) {
-      const double size = std::min(check(point.p_world).size_m, limit_m);
-      sum += size * size;
-    }
-    count += part.size();
-  }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
-}
-
 }  // namespace depthmocap

@@ -29,8 +29,6 @@ class FreeSpaceMatcher {
                const Eigen::Matrix3d& R_world_camera);
   // Appends the violations of a placed body, spread evenly where there are more than max_matches.
   void match(const PlacedSurface& placed, SurfaceMatches& matches);
-  // Mean over the placed points of min(violation, limit_m)^2 [m^2]; 0 without points.
-  [[nodiscard]] double misfit(const PlacedSurface& placed, double limit_m) const;
 
  private:
   struct Violation {

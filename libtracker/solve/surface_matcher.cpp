@@ -56,21 +56,4 @@ void SurfaceMatcher::match(const PlacedSurface& placed, const std::vector<Surfac
   }
 }
 
-double surfaceMisfit(const PlacedSurface& placed, const std::vector<SurfaceSample>& samples, std::size_t count,
-                     double limit_m) {
-  count = std::min(count, samples.size());
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const SurfaceSample& sample = samples[i * samples.size() / count];
-    auto nearest = static_cast<float>(limit_m * limit_m);
-    for (const auto& part : placed.parts) {
-      for (const PlacedSurface::Point& point : part) {
-        nearest = std::min(nearest, (point.p_world - sample.p_world).squaredNorm());
-      }
-    }
-    sum += static_cast<double>(nearest);
-  }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
-}
-
 }  // namespace depthmocap

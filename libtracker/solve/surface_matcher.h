@@ -37,9 +37,4 @@ class SurfaceMatcher {
   SurfaceMatchConfig config_;
 };
 
-// Mean over `count` of the samples, spread evenly, of min(distance to the placed surface, limit_m)^2 [m^2], whatever
-// their parts; 0 without samples.
-double surfaceMisfit(const PlacedSurface& placed, const std::vector<SurfaceSample>& samples, std::size_t count,
-                     double limit_m);
-
 }  // namespace depthmocap

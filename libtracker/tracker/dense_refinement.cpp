@@ -1,14 +1,12 @@
 #include "libtracker/tracker/dense_refinement.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
 namespace depthmocap {
 namespace {
 
-constexpr std::size_t kMisfitSamples = 80;
 constexpr double kMinExtent_m = 1.0;      // less of a person's height says nothing about the size
 constexpr double kTrimmedShare = 0.0005;  // of the pixels at either end: stray ones
 
@@ -71,13 +69,6 @@ double DenseRefinement::extentRatio(const SurfaceModel& surface, const ActorMode
 void DenseRefinement::place(const SurfaceModel& surface, const ActorModel& actor, const Pose& q) {
   fk_.update(actor.skeleton, q);
   placed_.place(surface, statureOf(actor.skeleton.lengths) / surface.stature_m, fk_);
-}
-
-double DenseRefinement::misfit(const SurfaceModel& surface, const ActorModel& actor, const Pose& q) {
-  if (surface.stature_m <= 0) return 0;
-  place(surface, actor, q);
-  return std::sqrt(surfaceMisfit(placed_, samples_, kMisfitSamples, kMisfitLimit_m) +
-                   free_space_.misfit(placed_, kMisfitLimit_m));
 }
 
 void DenseRefinement::refine(const SurfaceModel& surface, const ActorModel& actor, MapInput input, MapSolver& solver,

@@ -28,11 +28,6 @@ class DenseRefinement {
   void refine(const SurfaceModel& surface, const ActorModel& actor, MapInput input, MapSolver& solver, Pose& q,
               MapSummary& summary);
 
-  // How badly the body at this pose explains the frame, whatever the classifier says: root mean square [m] of the
-  // distances from measured points to the body, and of the body's reach into free space, each up to kMisfitLimit_m.
-  static constexpr double kMisfitLimit_m = 0.15;
-  [[nodiscard]] double misfit(const SurfaceModel& surface, const ActorModel& actor, const Pose& q);
-
   // How much taller the measured person stands than the model at the solved pose: the ratio of their vertical extents.
   // 0 if it cannot be told (too little of the person in view). Needs the whole person in view.
   [[nodiscard]] double extentRatio(const SurfaceModel& surface, const ActorModel& actor, const Pose& q);

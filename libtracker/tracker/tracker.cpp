@@ -84,6 +84,7 @@ struct Tracker::Stages {
     return wanted_camera ? &*wanted_camera : nullptr;
   }
   double observedScale(const Pose& q);
+  [[nodiscard]] JointPositions jointsCamera() const;
 
   const std::shared_ptr<const TrackerModels> models;
   const CameraModel camera;
@@ -145,10 +146,17 @@ void Tracker::Stages::predict() {
   if (config.policy.expect_sides) classify_config.facing_prior = expectedFacing(q_predicted);
   predicted_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), q_predicted, fk));
   predicted_centroid_camera = predicted_camera.position.col(partIndex(Part::Torso));
+  joints_predicted_camera = jointsCamera();
+}
+
+// The joints at the pose that fk holds.
+JointPositions Tracker::Stages::jointsCamera() const {
   const auto points = jointPoints(size.actor().skeleton);
+  JointPositions joints;
   for (int j = 0; j < kJointCount; ++j) {
-    joints_predicted_camera.col(j) = R_world_camera.transpose() * fk.position(points[static_cast<std::size_t>(j)]);
+    joints.col(j) = R_world_camera.transpose() * fk.position(points[static_cast<std::size_t>(j)]);
   }
+  return joints;
 }
 
 // (3) and (4): the nearest poses and the local model. Without history the global search does both.
@@ -195,6 +203,7 @@ bool Tracker::Stages::turnAround(const DepthImage& depth) {
   size = size_before;
   pixels = pixels_before;
   out.markers_camera = markers_before;
+  markers_world = rotated(R_world_camera, out.markers_camera);
   return false;
 }
 
@@ -202,6 +211,7 @@ bool Tracker::Stages::turnAround(const DepthImage& depth) {
 // tried, and the pose that explains the image best decides.
 std::optional<Tracker::Stages::FirstPose> Tracker::Stages::poseFromAnySide(const FacingShares& shares,
                                                                            const DepthImage& depth) {
+  if (models->forest.facings == 1) return poseFromScratch();
   std::optional<FirstPose> best;
   const SizeAdapter size_before = size;
   for (std::size_t f = 0; f < kFacingCount; ++f) {
@@ -214,6 +224,7 @@ std::optional<Tracker::Stages::FirstPose> Tracker::Stages::poseFromAnySide(const
     pose->cost = pose->summary.energy - kFacingWeight * std::log(static_cast<double>(shares[f]));
     if (!best || pose->cost < best->cost) best = pose;
   }
+  size = best ? best->size : size_before;
   if (best) assume(best->facing, depth);
   return best;
 }
@@ -246,7 +257,7 @@ std::optional<Tracker::Stages::FirstPose> Tracker::Stages::poseFromScratch() {
 
 bool Tracker::Stages::accept(const std::optional<FirstPose>& first) {
   if (!first) return false;
-  size = first->size;
+  disputed_frames = 0;
   summary = first->summary;
   history.accept(first->q, out.time_s, true);
   out.reinitialised = true;
@@ -300,10 +311,7 @@ void Tracker::Stages::finish() {
   if (out.state == TrackState::Lost) return;
   out.q = history.prev();
   out.model_markers_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), out.q, fk));
-  const auto points = jointPoints(size.actor().skeleton);
-  for (int j = 0; j < kJointCount; ++j) {
-    out.joints_camera.col(j) = R_world_camera.transpose() * fk.position(points[static_cast<std::size_t>(j)]);
-  }
+  out.joints_camera = jointsCamera();
   if (out.state != TrackState::Tracking) return;
   out.confidence = jointConfidence(out.markers_camera, out.model_markers_camera);
   out.rms_marker_m = summary.rms_marker_m;

@@ -123,12 +123,5 @@ TEST(SurfaceMatcher, LooksAtNoMoreSamplesThanAsked) {
   EXPECT_EQ(matches.size(), 5U);
 }
 
-TEST(SurfaceMisfit, IsTheMeanSquareDistanceUpToItsLimit) {
-  const ChestScene scene;
-  const std::vector<SurfaceSample> samples{scene.sampleAhead(0.03F), scene.sampleAhead(5.0F)};
-  EXPECT_NEAR(surfaceMisfit(scene.placed(), samples, 2, 0.1), (0.03 * 0.03 + 0.1 * 0.1) / 2, 1e-6);
-  EXPECT_EQ(surfaceMisfit(scene.placed(), {}, 2, 0.1), 0.0);
-}
-
 }  // namespace
 }  // namespace depthmocap
