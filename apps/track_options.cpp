@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/view_options.h"
+#include "libtracker/tracker/leave_out.h"
 
 namespace depthmocap {
 
@@ -38,6 +39,13 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
                   "full: with the dense term and measured weights; paper: as Su, Chai, Xia 2016 give it")
       ->check(CLI::IsMember({"full", "paper"}))
       ->capture_default_str();
+  command
+      .add_option(
+          "--without", o.without,
+          "Parts of the method to leave out, to measure what each is worth; weights: the paper's instead of ours")
+      ->delimiter(',')
+      ->check(CLI::IsMember(optionalParts()))
+      ->type_name("PART,...");
   command.add_option("--stature", o.assumed_stature_m, "Stature to start from without --actor [m]")
       ->check(CLI::Range(1.0, 2.2));
   command.add_option("--threads", o.threads, "Threads; the results do not depend on it")

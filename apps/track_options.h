@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -39,6 +40,7 @@ struct TrackOptions {
   std::filesystem::path stats;
   int threads = 2;
   std::string method = "full";
+  std::vector<std::string> without;  // parts of the method, see leaveOut()
   double assumed_stature_m = 0;  // [m] 0 = the tracker's default
 };
 

@@ -6,6 +6,7 @@
 #include "calibration/calibrated_actor.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/body/sample_surface.h"
+#include "libtracker/tracker/leave_out.h"
 
 namespace depthmocap {
 namespace {
@@ -36,6 +37,7 @@ std::optional<ActorModel> actorOf(const TrackOptions& options) {
 
 TrackerConfig trackerConfig(const TrackOptions& options) {
   TrackerConfig config = options.method == "paper" ? paperConfig() : TrackerConfig{};
+  for (const std::string& part : options.without) leaveOut(part, config);
   config.threads = options.threads;
   if (options.assumed_stature_m > 0) config.policy.assumed_stature_m = options.assumed_stature_m;
   return config;

@@ -79,6 +79,10 @@ void classify(const Forest& forest, const DepthImage& depth, const MaskImage& ma
 // Every pixel's distribution again, as if the facings had these probabilities (>= 0, not all 0); `memory` and `pixels`
 // as the last classify() left them.
 void assumeFacing(const FacingShares& facing, int threads, const ClassifyMemory& memory, ClassifiedPixels& pixels);
+// Every pixel's distribution again, as if the trees had seen exactly these parts (the size of the classified image; 0:
+// any part) whatever the facing: what a perfect classifier would say, for measurements. The probabilities of the
+// facings stay.
+void labelAs(const PartImage& parts, int threads, ClassifyMemory& memory, ClassifiedPixels& pixels);
 // classify() for a single image.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifiedPixels& result);

@@ -58,8 +58,10 @@ struct Tracker::Stages {
         global(config.prior.neighbours.back(), config.policy.start_poses),
         dense(config.surface, config.free_space, config.policy.dense_rounds) {}
 
-  void begin(const DepthFrame& frame);
+  void begin(const DepthFrame& frame, const KnownEvidence& given);
   void predict();
+  void labelPixels(const DepthImage& depth);
+  void findMarkers(const MarkerSet* expected_camera);
   void buildPrior();
   void solve(const DepthImage& depth);
   struct FirstPose {
@@ -107,6 +109,7 @@ struct Tracker::Stages {
   std::optional<Eigen::Vector3d> wanted_camera;  // where to look for somebody, once
 
   // Of the present frame.
+  KnownEvidence known;
   double dt_s = 0;
   bool predicted = false;
   Pose q_predicted = Pose::Zero();
@@ -127,7 +130,8 @@ struct Tracker::Stages {
   TrackedFrame out;
 };
 
-void Tracker::Stages::begin(const DepthFrame& frame) {
+void Tracker::Stages::begin(const DepthFrame& frame, const KnownEvidence& given) {
+  known = given;
   dt_s = out.time_s > 0 ? frame.time_s - out.time_s : 0.0;
   out.frame = frame.frame;
   out.time_s = frame.time_s;
@@ -157,6 +161,20 @@ JointPositions Tracker::Stages::jointsCamera() const {
     joints.col(j) = R_world_camera.transpose() * fk.position(points[static_cast<std::size_t>(j)]);
   }
   return joints;
+}
+
+// (1): a body part for each pixel; the pose before helps to tell left from right.
+void Tracker::Stages::labelPixels(const DepthImage& depth) {
+  classify(models->forest, depth, segmentation.mask, camera.fx, classify_config, classify_memory, pixels);
+  if (known.labels != nullptr) labelAs(*known.labels, config.threads, classify_memory, pixels);
+  if (predicted && config.policy.expect_sides) expectSides(joints_predicted_camera, camera, config.threads, pixels);
+}
+
+// (2): one marker for each part.
+void Tracker::Stages::findMarkers(const MarkerSet* expected_camera) {
+  finder.find(pixels, camera, size.actor().radii_m, expected_camera, out.markers_camera);
+  if (known.markers_camera != nullptr) out.markers_camera = *known.markers_camera;
+  markers_world = rotated(R_world_camera, out.markers_camera);
 }
 
 // (3) and (4): the nearest poses and the local model. Without history the global search does both.
@@ -234,8 +252,7 @@ void Tracker::Stages::assume(Facing facing, const DepthImage& depth) {
   FacingShares certain{};
   certain[static_cast<std::size_t>(facing)] = 1.0F;
   assumeFacing(certain, config.threads, classify_memory, pixels);
-  finder.find(pixels, camera, size.actor().radii_m, nullptr, out.markers_camera);
-  markers_world = rotated(R_world_camera, out.markers_camera);
+  findMarkers(nullptr);
   dense.observe(pixels, depth, segmentation.mask, camera, R_world_camera);
 }
 
@@ -344,26 +361,21 @@ void Tracker::use(std::shared_ptr<const TrackerModels> models, const ActorModel&
 }
 
 // The method on one page (Su, Chai, Xia 2016); equation numbers as in docs/architecture.md.
-const TrackedFrame& Tracker::process(const DepthFrame& frame) {
+const TrackedFrame& Tracker::process(const DepthFrame& frame, const KnownEvidence& known) {
   if (next_stages_) stages_ = std::move(next_stages_);
   Stages& s = *stages_;
   StageClock clock(s.out.ms);
-  s.begin(frame);
+  s.begin(frame, known);
 
   s.segmenter.segment(frame.depth, s.camera, s.expectedCentroid(), s.segmentation);
   clock.lap(&StageTimes::segment);
 
   // (1) a body part for each pixel
-  classify(s.models->forest, frame.depth, s.segmentation.mask, s.camera.fx, s.classify_config, s.classify_memory,
-           s.pixels);
-  if (s.predicted && s.config.policy.expect_sides)
-    expectSides(s.joints_predicted_camera, s.camera, s.config.threads, s.pixels);
+  s.labelPixels(frame.depth);
   clock.lap(&StageTimes::classify);
 
   // (2) one marker for each part
-  s.finder.find(s.pixels, s.camera, s.size.actor().radii_m, s.predicted ? &s.predicted_camera : nullptr,
-                s.out.markers_camera);
-  s.markers_world = rotated(s.R_world_camera, s.out.markers_camera);
+  s.findMarkers(s.predicted ? &s.predicted_camera : nullptr);
   clock.lap(&StageTimes::markers);
 
   // (3) nearest poses in the database, (4) local linear model over them

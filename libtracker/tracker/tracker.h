@@ -6,6 +6,8 @@
 #include "libtracker/classify/forest.h"
 #include "libtracker/core/camera.h"
 #include "libtracker/core/depth_frame.h"
+#include "libtracker/core/image.h"
+#include "libtracker/core/marker_set.h"
 #include "libtracker/posedb/pose_database.h"
 #include "libtracker/skeleton/surface_model.h"
 #include "libtracker/tracker/actor_model.h"
@@ -21,6 +23,13 @@ struct TrackerModels {
   SurfaceModel surface;  // of an average body; without points the dense term is off
 };
 
+// What a measurement knows of a frame and gives instead of what is found in it, so that errors can be told apart by the
+// stage that makes them; null: found as ever.
+struct KnownEvidence {
+  const PartImage* labels = nullptr;          // the part of each pixel, the size of the depth image
+  const MarkerSet* markers_camera = nullptr;  // [m]
+};
+
 // Tracks one actor through the frames of one camera (Su, Chai, Xia 2016; method section A).
 // Deterministic: the same frames give the same results for any number of threads. Not thread-safe.
 class Tracker {
@@ -30,8 +39,9 @@ class Tracker {
           const std::optional<ActorModel>& actor = std::nullopt);
   ~Tracker();
 
-  // The pose of one frame; times must increase. The result is valid until the next call.
-  const TrackedFrame& process(const DepthFrame& frame);
+  // The pose of one frame; times must increase. The result is valid until the next call. What is `known` must outlive
+  // the call.
+  const TrackedFrame& process(const DepthFrame& frame, const KnownEvidence& known = {});
 
   // Between frames: forgets the actor; the next frame looks for somebody anew. An uncalibrated actor's size starts at
   // the average again.
