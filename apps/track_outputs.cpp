@@ -101,7 +101,7 @@ const TrackedFrame& TrackOutputs::Files::smooth(const TrackedFrame& tracked) {
   smoothed = tracked;
   smoothed.q = smoother.smooth(tracked.q, tracked.time_s);
   smoothed.joints_camera =
-      uprightWorldFromCamera().transpose() * jointPositions(makeSkeleton(tracked.lengths), smoothed.q);
+      tracked.R_world_camera.transpose() * jointPositions(makeSkeleton(tracked.lengths), smoothed.q);
   return smoothed;
 }
 
@@ -110,7 +110,8 @@ const TrackedFrame& TrackOutputs::write(const DepthFrame& frame, const TrackedFr
   const TrackedFrame& shown = f.smooth(tracked);
   const JointsRow row = jointsRow(shown);
   if (f.joints) f.joints->write(row);
-  if (f.pose && shown.state != TrackState::Lost) f.pose->write({shown.frame, shown.time_s, shown.q});
+  if (f.pose && shown.state != TrackState::Lost)
+    f.pose->write({shown.frame, shown.time_s, shown.q, shown.R_world_camera});
   if (f.labels) f.labels->write(shown);
   const PreviewFrame preview{&frame.depth, &shown.labels, &shown.markers_camera, &row};
   if (f.preview) f.preview->write(preview);

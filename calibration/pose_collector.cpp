@@ -26,16 +26,15 @@ double change(const Pose& a, const Pose& b) {
   return std::sqrt(sum);
 }
 
-std::vector<CloudPoint> labelledCloud(const DepthImage& depth, const PartImage& labels, const CameraModel& camera) {
-  const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
+std::vector<CloudPoint> labelledCloud(const DepthImage& depth, const TrackedFrame& tracked, const CameraModel& camera) {
   std::vector<CloudPoint> cloud;
   for (int y = 0; y < depth.height; y += kStride_px) {
     for (int x = 0; x < depth.width; x += kStride_px) {
-      const int label = labels.at(x, y);
+      const int label = tracked.labels.at(x, y);
       const auto depth_m = static_cast<double>(depth.at(x, y));
       if (label == 0 || depth_m <= 0) continue;
       CloudPoint point;
-      point.p_world = (R_world_camera * camera.unproject(x, y, depth_m)).cast<float>();
+      point.p_world = (tracked.R_world_camera * camera.unproject(x, y, depth_m)).cast<float>();
       point.probability.fill((1.0F - kLabelled) / (kPartCount - 1));
       point.probability[static_cast<std::size_t>(label - 1)] = kLabelled;
       cloud.push_back(point);
@@ -54,8 +53,8 @@ void PoseCollector::add(const DepthFrame& frame, const TrackedFrame& tracked) {
   if (tracked.rms_marker_m > kMaxRms_m || tracked.confidence.mean() < kMinConfidence) return;
   if (change(tracked.q, Pose::Zero()) < kLeastChange) return;
   PoseObservation observation;
-  observation.cloud = thinned(labelledCloud(frame.depth, tracked.labels, camera_), points_per_part_);
-  observation.markers_world = rotated(uprightWorldFromCamera(), tracked.markers_camera);
+  observation.cloud = thinned(labelledCloud(frame.depth, tracked, camera_), points_per_part_);
+  observation.markers_world = rotated(tracked.R_world_camera, tracked.markers_camera);
   observation.q = tracked.q;
   observation.deviation.setConstant(kPoseDeviation);
   observation.deviation.head<kFirstBodyDof>().setZero();

@@ -49,11 +49,10 @@ json rotations(const Pose& q) {
 }
 
 void addPose(json& head, const TrackedFrame& tracked) {
-  const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
   json joints = json::array();
   json confidence = json::array();
   for (int j = 0; j < kJointCount; ++j) {
-    joints.push_back(point(R_world_camera * tracked.joints_camera.col(j)));
+    joints.push_back(point(tracked.R_world_camera * tracked.joints_camera.col(j)));
     confidence.push_back(rounded(tracked.confidence[j], 100));
   }
   head["joints"] = joints;
@@ -62,8 +61,7 @@ void addPose(json& head, const TrackedFrame& tracked) {
   head["rotations"] = rotations(tracked.q);
 }
 
-json markers(const MarkerSet& markers_camera) {
-  const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
+json markers(const MarkerSet& markers_camera, const Eigen::Matrix3d& R_world_camera) {
   json list = json::array();
   for (int m = 0; m < kPartCount; ++m) {
     if (!markers_camera.seen(m)) continue;
@@ -93,7 +91,7 @@ std::string ViewFrameEncoder::head(const TrackedFrame& tracked, const ViewFigure
                {"clients", figures.clients},
                {"recording", figures.recording},
                {"ms", times(tracked.ms)},
-               {"markers", markers(tracked.markers_camera)},
+               {"markers", markers(tracked.markers_camera, tracked.R_world_camera)},
                {"stature_m", rounded(tracked.stature_m, 1e4)},
                {"floor_y", rounded(floor_y_, 1e4)}};
   head["image"] = {{"width", width},   {"height", height}, {"step", step_},   {"fx", camera_.fx},

@@ -1,6 +1,7 @@
 #include "libtracker/recording/track_files.h"
 
 #include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -16,9 +17,19 @@ constexpr std::size_t kFirstJointColumn = 3;  // after frame, time_s, state
 constexpr std::size_t kColumnsPerJoint = 4;   // x y z c
 constexpr std::size_t kFirstDofColumn = 2;    // after frame, time_s
 
-// The frame that uprightWorldFromCamera() leads to.
-constexpr std::string_view kWorldFrameComment =
-    "# world frame: y up, x right, z towards the camera; metres, radians; p_camera = (x, -y, -z)\n";
+// The comment line that names a world frame: how its points (x, y, z) lie in the camera's.
+std::string worldFrameComment(const Eigen::Matrix3d& R_world_camera) {
+  std::string p_camera = "x, -y, -z";
+  if (R_world_camera != uprightWorldFromCamera()) {
+    const auto row = [&](int axis) {
+      const Eigen::Vector3d r = R_world_camera.col(axis);
+      return fmt::format("{:.6f} x {:+.6f} y {:+.6f} z", r.x(), r.y(), r.z());
+    };
+    p_camera = fmt::format("{}, {}, {}", row(0), row(1), row(2));
+  }
+  return fmt::format("# world frame: y up, x right, z towards the camera; metres, radians; p_camera = ({})\n",
+                     p_camera);
+}
 
 std::vector<std::string> jointsColumns() {
   std::vector<std::string> columns = {"frame", "time_s", "state"};
@@ -124,7 +135,17 @@ struct JointsWriter::Impl : RowFile {
 };
 
 struct PoseWriter::Impl : RowFile {
-  using RowFile::RowFile;
+  explicit Impl(const std::filesystem::path& path) : RowFile(path, "") {}
+
+  void nameWorld(const Eigen::Matrix3d& R_world_camera) {
+    if (named && *named == R_world_camera) return;
+    std::string text = worldFrameComment(R_world_camera);
+    if (!named) text += fmt::format("{}\n", fmt::join(poseColumns(), ","));
+    write(text);
+    named = R_world_camera;
+  }
+
+  std::optional<Eigen::Matrix3d> named;
 };
 
 JointsWriter::JointsWriter(const std::filesystem::path& path)
@@ -150,18 +171,19 @@ void JointsWriter::finish() {
   impl_->finish();
 }
 
-PoseWriter::PoseWriter(const std::filesystem::path& path)
-    : impl_(std::make_unique<Impl>(path, fmt::format("{}{}\n", kWorldFrameComment, fmt::join(poseColumns(), ",")))) {}
+PoseWriter::PoseWriter(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
 PoseWriter::~PoseWriter() = default;
 
 void PoseWriter::write(const PoseRow& row) {
   DMC_CHECK(row.q.allFinite());
+  impl_->nameWorld(row.R_world_camera);
   std::string text = fmt::format("{},{:.6f}", row.frame, row.time_s);
   for (int i = 0; i < kDofCount; ++i) fmt::format_to(std::back_inserter(text), ",{:.6f}", row.q[i]);
   impl_->write(text + "\n");
 }
 
 void PoseWriter::finish() {
+  if (!impl_->named) impl_->nameWorld(uprightWorldFromCamera());
   impl_->finish();
 }
 

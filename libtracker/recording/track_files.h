@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libtracker/core/camera.h"
 #include "libtracker/core/joints.h"
 #include "libtracker/core/track_state.h"
 #include "libtracker/skeleton/dof.h"
@@ -22,11 +23,13 @@ struct JointsRow {
   Eigen::Matrix<double, kJointCount, 1> confidence = Eigen::Matrix<double, kJointCount, 1>::Zero();
 };
 
-// One row of a pose file: q in the world frame named by the file's first comment line.
+// One row of a pose file: q in a world frame with the camera at its origin and y up, which a comment line before the
+// row names. Readers of the file leave the world at its default.
 struct PoseRow {
   std::int64_t frame = 0;
   double time_s = 0;
   Pose q = Pose::Zero();
+  Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
 };
 
 // Columns beyond the known ones and lines that start with # are skipped. A damaged row (too few fields, no number,
@@ -49,7 +52,8 @@ class JointsWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// A lost frame writes no row; frame numbers say which are missing.
+// A lost frame writes no row; frame numbers say which are missing. The file begins with the comment line that names the
+// world of its first row; where a later row is in another world, such a line stands before it.
 class PoseWriter {
  public:
   explicit PoseWriter(const std::filesystem::path& path);

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "libtracker/core/camera.h"
@@ -24,6 +26,10 @@ struct CoarseCloud {
   [[nodiscard]] float cellArea(float depth_m) const {  // [m^2]
     const float side = depth_m * static_cast<float>(pixel_angle);
     return side * side;
+  }
+  // [m^2] of a plane with this unit normal that the cell of point p covers; of planes seen along it a part is left out.
+  [[nodiscard]] float areaAcross(const Eigen::Vector3f& p, const Eigen::Vector3f& normal) const {
+    return cellArea(p.z()) / std::max(0.2F, std::abs(normal.dot(p.normalized())));
   }
 };
 

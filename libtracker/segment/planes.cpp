@@ -1,5 +1,6 @@
 #include "libtracker/segment/planes.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -18,18 +19,21 @@ namespace depthmocap {
 
 namespace {
 
-constexpr double kMaxTilt_rad = 25.0 * std::numbers::pi / 180.0;
+constexpr double kMaxTilt_rad = 30.0 * std::numbers::pi / 180.0;
 constexpr double kMaxWallTilt_rad = 10.0 * std::numbers::pi / 180.0;
-constexpr float kFloorNormal = 0.80F;  // cosine to the assumed up from which a cell may be floor: 25 degrees and noise
+constexpr float kFloorNormal = 0.77F;  // cosine to the assumed up from which a cell may be floor: 30 degrees and noise
 constexpr float kWallNormal = 0.35F;   // sine of a wall cell's tilt, at most
 constexpr int kMaxPoints = 2000;       // for RANSAC
 constexpr int kMaxIterations = 100;
-constexpr int kMaxFloorTries = 3;        // table, platform, floor
+constexpr int kMaxFloorTries = 3;  // table, platform, floor
+constexpr int kSettleRounds = 3;
+constexpr float kOnFloor = 0.93F;        // cosine between the surface at a cell and the floor; in corners it is less
 constexpr double kMinFloorShare = 0.02;  // of the measured cells
 constexpr float kMinCameraHeight_m = 0.2F;
 constexpr float kMinWallArea_m2 = 1.2F;
 constexpr float kMinWallWidth_m = 1.0F;
 constexpr int kMaxWallTries = 4;
+constexpr float kAlongPlane = 0.85F;  // cosine between the surface at a cell and the plane that it belongs to
 
 constexpr double kFitDistance_m = 0.03;   // of RANSAC's inliers
 constexpr float kWallDistance_m = 0.06F;  // plus noise: what is wall
@@ -60,6 +64,8 @@ struct PlaneFinder::Impl {
   bool fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis,
            Eigen::Vector4f& plane);
   std::optional<Eigen::Vector4f> findFloor(const CoarseCloud& cloud, double distance_m);
+  void settle(const CoarseCloud& cloud, double distance_m, Eigen::Vector4f& floor) const;
+  [[nodiscard]] float areaOf(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) const;
   void findWalls(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes);
   bool boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, Wall& wall) const;
 };
@@ -103,6 +109,32 @@ bool PlaneFinder::Impl::fit(const CoarseCloud& cloud, int model, double max_angl
   return plane.allFinite();
 }
 
+// RANSAC's plane rests on few points: least squares over all candidates near it, weighted by what noise allows.
+void PlaneFinder::Impl::settle(const CoarseCloud& cloud, double distance_m, Eigen::Vector4f& floor) const {
+  for (int round = 0; round < kSettleRounds; ++round) {
+    double total = 0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (const std::size_t i : candidates) {
+      const float tolerance = floorTolerance(distance_m, floor, cloud.points[i].z());
+      if (std::abs(distanceTo(floor, cloud.points[i])) > tolerance || normals[i].dot(floor.head<3>()) < kOnFloor)
+        continue;
+      const Eigen::Vector3d p = cloud.points[i].cast<double>();
+      const double weight = 1.0 / static_cast<double>(tolerance * tolerance);
+      total += weight;
+      sum += weight * p;
+      moments.noalias() += weight * p * p.transpose();
+    }
+    if (total <= 0) return;
+    const Eigen::Vector3d mean = sum / total;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(moments / total - mean * mean.transpose());
+    Eigen::Vector3d normal = solver.eigenvectors().col(0);
+    if (normal.dot(floor.head<3>().cast<double>()) < 0) normal = -normal;
+    floor << normal.cast<float>(), static_cast<float>(-normal.dot(mean));
+  }
+}
+
 // A plane with much below it is a table: look again among what lies below.
 std::optional<Eigen::Vector4f> PlaneFinder::Impl::findFloor(const CoarseCloud& cloud, double distance_m) {
   const Eigen::Vector3f assumed_up(0, -1, 0);
@@ -118,9 +150,23 @@ std::optional<Eigen::Vector4f> PlaneFinder::Impl::findFloor(const CoarseCloud& c
     if (!fit(cloud, pcl::SACMODEL_PERPENDICULAR_PLANE, kMaxTilt_rad, assumed_up, plane)) break;
     const bool is_below_camera = plane.head<3>().dot(assumed_up) > 0 && plane[3] > kMinCameraHeight_m;
     if (!is_below_camera || floorShare(cloud, plane, distance_m) < kMinFloorShare) break;
+    settle(cloud, distance_m, plane);
     floor = plane;
   }
   return floor;
+}
+
+// What is in view of the floor [m^2].
+float PlaneFinder::Impl::areaOf(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) const {
+  float area = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Eigen::Vector3f& p = cloud.points[i];
+    const Eigen::Vector3f normal = floor.head<3>();
+    if (p.z() <= 0 || normals[i].dot(normal) < kAlongPlane) continue;
+    if (std::abs(distanceTo(floor, p)) > floorTolerance(distance_m, floor, p.z())) continue;
+    area += cloud.areaAcross(p, normal);
+  }
+  return area;
 }
 
 // Ends of the wall: the 1st and 99th hundredth of its points, so that a stray inlier does not lengthen it.
@@ -131,10 +177,9 @@ bool PlaneFinder::Impl::boundWall(const CoarseCloud& cloud, const Eigen::Vector3
   float area = 0;
   for (const std::size_t i : candidates) {
     const Eigen::Vector3f& p = cloud.points[i];
-    if (std::abs(distanceTo(wall.plane, p)) > wallTolerance(p.z()) || normals[i].dot(normal) < 0.85F) continue;
+    if (std::abs(distanceTo(wall.plane, p)) > wallTolerance(p.z()) || normals[i].dot(normal) < kAlongPlane) continue;
     positions.push_back(wall.along.dot(p));
-    const float slant = std::max(0.2F, std::abs(normal.dot(p.normalized())));
-    area += cloud.cellArea(p.z()) / slant;
+    area += cloud.areaAcross(p, normal);
   }
   if (area < kMinWallArea_m2) return false;
   std::sort(positions.begin(), positions.end());
@@ -164,6 +209,7 @@ void PlaneFinder::find(const CoarseCloud& cloud, double distance_m, RoomPlanes& 
   impl_->keep.assign(cloud.points.size(), 1);
   computeNormals(cloud, impl_->keep, impl_->normals);
   planes.floor = impl_->findFloor(cloud, distance_m);
+  planes.floor_area_m2 = planes.floor ? impl_->areaOf(cloud, *planes.floor, distance_m) : 0.0F;
   impl_->findWalls(cloud, distance_m, planes);
 }
 

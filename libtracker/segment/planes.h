@@ -20,10 +20,11 @@ struct Wall {
 
 struct RoomPlanes {
   std::optional<Eigen::Vector4f> floor;  // n up, camera above it
+  float floor_area_m2 = 0;               // in view
   std::vector<Wall> walls;
 };
 
-// The largest planes of a room: the floor (lowest plane within 25 degrees of horizontal, below the camera) and up to
+// The largest planes of a room: the floor (lowest plane within 30 degrees of horizontal, below the camera) and up to
 // three walls, by RANSAC (PCL, fixed seed) over the cells whose local surface faces the right way.
 class PlaneFinder {
  public:

@@ -129,6 +129,7 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera,
       s.config.min_depth_m, s.config.max_depth_m, s.config.cluster_gap_m, s.config.floor_distance_m, {}};
   if (!cut_out) limits.floor = s.planes.floor;
   if (limits.floor) out.floor_camera = limits.floor->cast<double>();
+  out.floor_area_m2 = limits.floor ? static_cast<double>(s.planes.floor_area_m2) : 0.0;
   refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, out.mask);
   s.summarise(depth, camera, out);
 }

@@ -27,6 +27,7 @@ struct Segmentation {
   bool touches_border = false;
   Eigen::Vector3d centroid_camera = Eigen::Vector3d::Zero();  // [m]
   std::optional<Eigen::Vector4d> floor_camera;  // plane n.p + d = 0, |n| = 1, n away from the floor (up); if seen
+  double floor_area_m2 = 0;                     // of it in view, when it was last looked for
 };
 
 // Finds the actor's pixels. A recording whose background is already removed is recognised (see looksCutOut) and keeps

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "libtracker/skeleton/forward_kinematics.h"
+
 namespace depthmocap {
 namespace {
 
@@ -28,6 +30,12 @@ void TrackHistory::accept(const Pose& q, double time_s, bool fresh) {
   q_prev_ = q;
   time_s_ = evidence_time_s_ = time_s;
   state_ = TrackState::Tracking;
+}
+
+void TrackHistory::turnWorld(const Eigen::Matrix3d& R_new_before) {
+  q_prev_.head<3>() = R_new_before * q_prev_.head<3>();
+  setLocalRotation(Bone::Root, R_new_before * localRotation(Bone::Root, q_prev_), q_prev_);
+  velocity_.setZero();
 }
 
 void TrackHistory::miss(double time_s, double coast_s) {

@@ -18,6 +18,8 @@ class TrackHistory {
 
   // A believed pose; `fresh` forgets the velocity (first pose, pose of a global search).
   void accept(const Pose& q, double time_s, bool fresh);
+  // The world is another one: p_new = R_new_before * p_before. The velocity is forgotten: the camera has moved.
+  void turnWorld(const Eigen::Matrix3d& R_new_before);
   // No evidence at `time_s`: the pose rests where it is; after coast_s the actor is lost.
   void miss(double time_s, double coast_s);
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
+#include "libtracker/core/camera.h"
 #include "libtracker/core/image.h"
 #include "libtracker/core/joints.h"
 #include "libtracker/core/marker_set.h"
@@ -27,8 +29,11 @@ struct TrackedFrame {
   double time_s = 0;
   TrackState state = TrackState::Lost;
   bool reinitialised = false;  // the pose comes from a global search, not from the frame before
-  Pose q = Pose::Zero();       // in the world frame of uprightWorldFromCamera(); means nothing when lost
-  JointPositions joints_camera = JointPositions::Zero();                                             // [m]
+  Pose q = Pose::Zero();       // in the world of this frame; means nothing when lost
+  // The world (see UprightWorld): p_world = R_world_camera * p_camera; changes where the camera was turned.
+  Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
+  std::optional<Eigen::Vector4d> floor_world;             // n.p + d = 0, |n| = 1, n up [m]; if seen
+  JointPositions joints_camera = JointPositions::Zero();  // [m]
   Eigen::Matrix<double, kJointCount, 1> confidence = Eigen::Matrix<double, kJointCount, 1>::Zero();  // [0, 1]
   MarkerSet markers_camera;        // what was seen [m]
   MarkerSet model_markers_camera;  // where the solved pose puts its markers [m]; confidence 1

@@ -17,6 +17,7 @@
 #include "libtracker/tracker/size_adapter.h"
 #include "libtracker/tracker/stage_clock.h"
 #include "libtracker/tracker/track_history.h"
+#include "libtracker/tracker/upright_world.h"
 
 namespace depthmocap {
 namespace {
@@ -60,6 +61,7 @@ struct Tracker::Stages {
 
   void begin(const DepthFrame& frame, const KnownEvidence& given);
   void predict();
+  void levelWorld();
   void labelPixels(const DepthImage& depth);
   void findMarkers(const MarkerSet* expected_camera);
   void buildPrior();
@@ -91,7 +93,8 @@ struct Tracker::Stages {
   const std::shared_ptr<const TrackerModels> models;
   const CameraModel camera;
   const TrackerConfig config;
-  const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
+  UprightWorld world;
+  const Eigen::Matrix3d& R_world_camera = world.R_world_camera();
 
   const SizeAdapter first_size;
   SizeAdapter size;
@@ -151,6 +154,14 @@ void Tracker::Stages::predict() {
   predicted_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), q_predicted, fk));
   predicted_centroid_camera = predicted_camera.position.col(partIndex(Part::Torso));
   joints_predicted_camera = jointsCamera();
+}
+
+// The floor says which way is up; where it says so anew, the poses before are turned with the world.
+void Tracker::Stages::levelWorld() {
+  const Eigen::Matrix3d R_before_camera = R_world_camera;
+  if (!world.observe(segmentation)) return;
+  history.turnWorld(R_world_camera * R_before_camera.transpose());
+  predict();
 }
 
 // The joints at the pose that fk holds.
@@ -322,6 +333,8 @@ double Tracker::Stages::observedScale(const Pose& q) {
 void Tracker::Stages::finish() {
   labelImage(pixels, segmentation.mask, out.labels);
   out.state = history.state();
+  out.R_world_camera = R_world_camera;
+  out.floor_world = world.floor();
   out.lengths = size.actor().skeleton.lengths;
   out.stature_m = statureOf(out.lengths);
   out.confidence.setZero();
@@ -368,6 +381,7 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame, const KnownEvidenc
   s.begin(frame, known);
 
   s.segmenter.segment(frame.depth, s.camera, s.expectedCentroid(), s.segmentation);
+  s.levelWorld();
   clock.lap(&StageTimes::segment);
 
   // (1) a body part for each pixel

@@ -1,5 +1,9 @@
 #include "libtracker/recording/track_files.h"
 
+#include <Eigen/Geometry>
+#include <cstdio>
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "libtracker/core/error.h"
@@ -97,6 +101,51 @@ TEST(PoseFile, NamesItsWorldFrameFirstAndGivesBackThePose) {
   EXPECT_EQ(rows[0].frame, 4);
   EXPECT_EQ(rows[0].time_s, 0.5);
   EXPECT_EQ(rows[0].q, row.q);
+}
+
+// The rotation that a comment line names: p_camera = (a x + b y + c z, ...).
+Eigen::Matrix3d namedRotation(const std::string& comment) {
+  Eigen::Matrix3d R_camera_world;
+  const char* text = comment.c_str() + comment.find("p_camera = (") + 12;
+  auto& R = R_camera_world;
+  EXPECT_EQ(std::sscanf(text, "%lf x %lf y %lf z, %lf x %lf y %lf z, %lf x %lf y %lf z)", &R(0, 0), &R(0, 1), &R(0, 2),
+                        &R(1, 0), &R(1, 1), &R(1, 2), &R(2, 0), &R(2, 1), &R(2, 2)),
+            9)
+      << comment;
+  return R_camera_world;
+}
+
+TEST(PoseFile, NamesTheWorldOfATiltedCameraAndEveryNewOne) {
+  const TemporaryFolder folder;
+  PoseWriter writer(folder / "pose.csv");
+  PoseRow row;
+  const Eigen::Matrix3d tilted =
+      Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitX()).toRotationMatrix() * uprightWorldFromCamera();
+  row.R_world_camera = tilted;
+  writer.write(row);
+  for (int i = 1; i < 3; ++i) {
+    row.frame = i;
+    row.time_s = i;
+    row.R_world_camera = uprightWorldFromCamera();
+    writer.write(row);
+  }
+  writer.finish();
+  std::ifstream file(folder / "pose.csv");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 6U) << "world, header, row, world, row, row";
+  EXPECT_TRUE(namedRotation(lines[0]).isApprox(tilted.transpose(), 1e-6)) << lines[0];
+  EXPECT_EQ(lines[1].rfind("frame,", 0), 0U);
+  EXPECT_NE(lines[3].find("p_camera = (x, -y, -z)"), std::string::npos) << lines[3];
+  EXPECT_EQ(readPoseFile(folder / "pose.csv").size(), 3U);
+}
+
+TEST(PoseFile, WithoutARowStillNamesItsWorld) {
+  const TemporaryFolder folder;
+  PoseWriter writer(folder / "pose.csv");
+  writer.finish();
+  EXPECT_EQ(readBytes(folder / "pose.csv").rfind("# world frame: y up", 0), 0U);
+  EXPECT_TRUE(readPoseFile(folder / "pose.csv").empty());
 }
 
 TEST(PoseFile, WritesTheGoldenFileByteForByte) {

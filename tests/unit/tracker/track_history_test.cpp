@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "libtracker/skeleton/forward_kinematics.h"
+
 namespace depthmocap {
 namespace {
 
@@ -65,6 +67,23 @@ TEST(TrackHistory, CoastsAtRestAndThenLosesTheActor) {
   EXPECT_EQ(history.state(), TrackState::Lost);
   history.accept(poseAt(2, 0), 5.0, true);
   EXPECT_EQ(history.state(), TrackState::Tracking);
+}
+
+TEST(TrackHistory, TurnsThePoseWithTheWorld) {
+  TrackHistory history;
+  Pose q = poseAt(0.3, 0.7);
+  q[kRootTz] = -2.5;
+  q[kRootRx] = 0.2;
+  history.accept(q, 1.0, true);
+  Pose later = q;
+  later[kRootTx] += 0.02;
+  history.accept(later, 1.02, false);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.35, Eigen::Vector3d(1, 0.1, 0.2).normalized()).toRotationMatrix();
+  history.turnWorld(turn);
+  const Skeleton skeleton = makeSkeleton(BoneLengths{});
+  const JointPositions expected = turn * jointPositions(skeleton, later);
+  EXPECT_LT((jointPositions(skeleton, history.prev()) - expected).norm(), 1e-9);
+  EXPECT_EQ(history.predicted(1.05), history.prev()) << "the velocity was of the world before";
 }
 
 }  // namespace
