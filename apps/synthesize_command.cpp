@@ -27,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::string_view kProcedural = "procedural:";
 constexpr std::string_view kMakeHuman = "makehuman:";
 constexpr double kKinect2Reach_m = 4.3;  // the whole body is within the sensor's 4.5 m
@@ -51,17 +52,21 @@ struct SynthesizeOptions {
   double yaw_deg = 0;
   double distance_m = StagingConfig{}.distance_m;
   double camera_height_m = StagingConfig{}.camera_height_m;
+  double tilt_deg = 0;
+  std::string second_motion;
+  double second_distance_m = 3.5;
+  double second_yaw_deg = 90;
   std::int64_t first = 0;
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   std::uint64_t seed = 1;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
-MotionClip readMotion(const SynthesizeOptions& o) {
-  if (o.motion.starts_with(kProcedural)) return proceduralMotion(o.motion.substr(kProcedural.size()), o.seed);
+MotionClip readMotion(const std::string& motion, const SynthesizeOptions& o) {
+  if (motion.starts_with(kProcedural)) return proceduralMotion(motion.substr(kProcedural.size()), o.seed);
   LoadOptions load;
   if (!o.asf.empty()) load.asf = o.asf;
-  return loadMotion(o.motion, load);
+  return loadMotion(motion, load);
 }
 
 // Frames first..last, both included.
@@ -132,14 +137,26 @@ SynthesisConfig configOf(const SynthesizeOptions& o) {
   config.camera = cameraOf(o, config.sensor);
   config.noise = o.noise == "on";
   config.scene = o.scene == "room" ? SceneKind::Room : SceneKind::None;
-  config.staging.yaw = o.yaw_deg * std::numbers::pi / 180.0;
+  config.staging.yaw = o.yaw_deg * kDegree;
   config.staging.distance_m = o.distance_m;
   config.staging.half_view = 0.5 * config.camera.width / config.camera.fx;
   if (config.sensor == SensorKind::Kinect2) config.staging.max_distance_m = kKinect2Reach_m;
   config.staging.camera_height_m = o.camera_height_m;
+  config.camera_tilt = o.tilt_deg * kDegree;
   config.seed = o.seed;
   config.threads = o.threads;
   return config;
+}
+
+// Walks through the whole of the own path, also where that leads out of the view.
+Bystander bystanderOf(const SynthesizeOptions& o) {
+  constexpr double kEverywhere = 100.0;
+  Bystander bystander{readMotion(o.second_motion, o), makeBuiltinBody(BodyShape{}), {}};
+  bystander.staging.yaw = o.second_yaw_deg * kDegree;
+  bystander.staging.distance_m = o.second_distance_m;
+  bystander.staging.half_view = kEverywhere;
+  bystander.staging.camera_height_m = o.camera_height_m;
+  return bystander;
 }
 
 std::string noteOf(const SynthesizeOptions& o, const MotionClip& clip) {
@@ -151,10 +168,11 @@ std::string noteOf(const SynthesizeOptions& o, const MotionClip& clip) {
 
 void synthesize(const SynthesizeOptions& o) {
   SynthesisConfig config = configOf(o);
-  MotionClip clip = readMotion(o);
+  MotionClip clip = readMotion(o.motion, o);
   cutMotion(clip, o.first, o.last);
   config.note = noteOf(o, clip);
   const BodySurface body = makeBody(o);
+  if (!o.second_motion.empty()) config.bystander = bystanderOf(o);
   {
     Progress progress("rendering", clip.poses.size());
     synthesizeRecording(clip, body, config, o.out, [&](std::size_t done) { progress.update(done); });
@@ -200,6 +218,19 @@ void addViewOptions(CLI::App& command, SynthesizeOptions& o) {
   command.add_option("--camera-height", o.camera_height_m, "Camera above the floor [m]")
       ->check(CLI::Range(0.1, 5.0))
       ->capture_default_str();
+  command.add_option("--tilt", o.tilt_deg, "How far the camera looks down [deg]")
+      ->check(CLI::Range(-45.0, 45.0))
+      ->capture_default_str();
+}
+
+void addSecondPersonOptions(CLI::App& command, SynthesizeOptions& o) {
+  command.add_option("--second-person", o.second_motion, "Motion of somebody else in the view, as --motion")
+      ->type_name("FILE");
+  command.add_option("--second-distance", o.second_distance_m, "Camera to the middle of that one's path [m]")
+      ->check(CLI::Range(0.3, 10.0))
+      ->capture_default_str();
+  command.add_option("--second-yaw", o.second_yaw_deg, "That one's heading in the first frame [deg]")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -215,6 +246,7 @@ void addSynthesizeCommand(CLI::App& app) {
   command->add_option("--out", o.out, "Folder to write")->type_name("REC")->required();
   addBodyOptions(*command, o);
   addViewOptions(*command, o);
+  addSecondPersonOptions(*command, o);
   command->add_option("--first", o.first, "First frame of the motion, from 0")->check(CLI::NonNegativeNumber);
   command->add_option("--last", o.last, "Last frame of the motion")->check(CLI::NonNegativeNumber);
   command->add_option("--seed", o.seed, "Seed of noise, scene, clothes and procedural motion")->capture_default_str();

@@ -1,7 +1,9 @@
 #include "forest/render/synthesize.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,16 +29,48 @@ struct RenderedFrame {
   PartImage parts;
 };
 
+Eigen::Matrix3d tiltedCameraFromWorld(const SynthesisConfig& config) {
+  return Eigen::AngleAxisd(config.camera_tilt, Eigen::Vector3d::UnitX()).toRotationMatrix() * uprightWorldFromCamera();
+}
+
+// What stands and moves around the actor.
+class Surroundings {
+ public:
+  Surroundings(TriangleMesh room, const SynthesisConfig& config, const std::vector<Pose>& bystander_poses)
+      : mesh_(std::move(room)), room_vertices_(mesh_.vertices.size()), poses_(bystander_poses) {
+    if (!config.bystander) return;
+    body_ = &config.bystander->body;
+    const auto first = static_cast<std::uint32_t>(room_vertices_);
+    for (const Triangle& t : body_->triangles) mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+
+  // Valid until the next call.
+  const TriangleMesh& at(std::size_t frame) {
+    if (body_ == nullptr) return mesh_;
+    poseSurface(*body_, poses_[std::min(frame, poses_.size() - 1)], vertices_);
+    mesh_.vertices.resize(room_vertices_);
+    mesh_.vertices.insert(mesh_.vertices.end(), vertices_.begin(), vertices_.end());
+    return mesh_;
+  }
+
+ private:
+  TriangleMesh mesh_;
+  std::size_t room_vertices_;
+  std::vector<Pose> poses_;
+  const BodySurface* body_ = nullptr;
+  std::vector<Eigen::Vector3f> vertices_;
+};
+
 // What one thread needs to render frames.
 class FrameRenderer {
  public:
-  FrameRenderer(const BodySurface& body, const SynthesisConfig& config, const TriangleMesh& room)
-      : body_(body), config_(config), sensor_(config.sensor) {
-    T_camera_world_.linear() = uprightWorldFromCamera();
-    renderer_.setBackground(room);
+  FrameRenderer(const BodySurface& body, const SynthesisConfig& config, Surroundings surroundings)
+      : body_(body), config_(config), sensor_(config.sensor), surroundings_(std::move(surroundings)) {
+    T_camera_world_.linear() = tiltedCameraFromWorld(config);
   }
 
   void render(const Pose& q, RenderedFrame& frame) {
+    renderer_.setBackground(surroundings_.at(static_cast<std::size_t>(frame.depth.frame)));
     poseSurface(body_, q, vertices_);
     renderer_.setBody(vertices_, body_.triangles, body_.part);
     renderer_.render(config_.camera, T_camera_world_, config_.noise ? sensor_.renderOptions() : RenderOptions{},
@@ -56,16 +90,18 @@ class FrameRenderer {
   Eigen::Isometry3d T_camera_world_ = Eigen::Isometry3d::Identity();
   DepthRenderer renderer_;
   SensorModel sensor_;
+  Surroundings surroundings_;
   RenderedView clean_;
   std::vector<Eigen::Vector3f> vertices_;
 };
 
-JointsRow truthRow(const Skeleton& skeleton, const Pose& q, const CameraModel& camera, const DepthFrame& frame) {
+JointsRow truthRow(const Skeleton& skeleton, const Pose& q, const SynthesisConfig& config, const DepthFrame& frame) {
+  const CameraModel& camera = config.camera;
   JointsRow row;
   row.frame = frame.frame;
   row.time_s = frame.time_s;
   row.state = TrackState::Tracking;
-  row.p_camera = uprightWorldFromCamera() * jointPositions(skeleton, q);
+  row.p_camera = tiltedCameraFromWorld(config) * jointPositions(skeleton, q);
   for (int j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d p = row.p_camera.col(j);
     if (p.z() <= 0) continue;
@@ -76,10 +112,11 @@ JointsRow truthRow(const Skeleton& skeleton, const Pose& q, const CameraModel& c
   return row;
 }
 
-TriangleMesh sceneFor(const SynthesisConfig& config, const StagedMotion& staged) {
+TriangleMesh sceneFor(const SynthesisConfig& config, const StagedMotion& staged, const std::vector<Pose>& bystander) {
   if (config.scene == SceneKind::None) return {};
   std::vector<Eigen::Vector3d> path;
   for (const Pose& q : staged.poses) path.emplace_back(q.head<3>());
+  for (const Pose& q : bystander) path.emplace_back(q.head<3>());
   return makeRoom(staged.floor_y, path, config.seed);
 }
 
@@ -104,7 +141,11 @@ RecordingInfo infoOf(const SynthesisConfig& config, double fps, double path_scal
 void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const SynthesisConfig& config,
                          const fs::path& folder, const std::function<void(std::size_t)>& progress) {
   const StagedMotion staged = stageMotion(clip, body, config.staging);
-  const TriangleMesh room = sceneFor(config, staged);
+  std::vector<Pose> bystander;
+  if (config.bystander) {
+    bystander = stageMotion(config.bystander->clip, config.bystander->body, config.bystander->staging).poses;
+  }
+  const Surroundings surroundings(sceneFor(config, staged, bystander), config, bystander);
   RecordingWriter recording(folder, infoOf(config, clip.fps, staged.path_scale));
   const fs::path labels = folder / "truth" / "labels";
   makeLabelFolder(labels);
@@ -113,7 +154,7 @@ void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const 
 
   const auto workers = static_cast<std::size_t>(config.threads);
   std::vector<FrameRenderer> renderers;
-  for (std::size_t w = 0; w < workers; ++w) renderers.emplace_back(body, config, room);
+  for (std::size_t w = 0; w < workers; ++w) renderers.emplace_back(body, config, surroundings);
   std::vector<RenderedFrame> batch(workers * kFramesAWorker);
 
   const std::size_t count = staged.poses.size();
@@ -132,8 +173,8 @@ void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const 
       const DepthFrame& frame = batch[slot].depth;
       const Pose& q = staged.poses[first + slot];
       recording.write(frame);
-      joints.write(truthRow(body.skeleton, q, config.camera, frame));
-      poses.write({frame.frame, frame.time_s, q});
+      joints.write(truthRow(body.skeleton, q, config, frame));
+      poses.write({frame.frame, frame.time_s, q, tiltedCameraFromWorld(config).transpose()});
     }
     if (progress) progress(first + here);
   }

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "forest/render/sensor_model.h"
@@ -11,6 +12,13 @@ namespace depthmocap {
 
 enum class SceneKind { None, Room };
 
+// Somebody else in the view, who is no part of the truth.
+struct Bystander {
+  MotionClip clip;  // played once from the first frame on; the last pose stays
+  BodySurface body;
+  StagingConfig staging;
+};
+
 // How a motion becomes a recording.
 struct SynthesisConfig {
   SensorKind sensor = SensorKind::Kinect1;
@@ -18,15 +26,17 @@ struct SynthesisConfig {
   bool noise = true;
   SceneKind scene = SceneKind::None;
   StagingConfig staging;
+  double camera_tilt = 0;  // [rad] down
+  std::optional<Bystander> bystander;
   std::uint64_t seed = 1;  // of noise and scene
   int threads = 1;         // (>= 1) the result does not depend on it
   std::string note;        // for recording.json
 };
 
 // Renders a clip as a recording with truth: depth/, truth/joints.csv (confidence 1 where the joint lies inside the
-// image, else 0), truth/pose.csv (the camera's default world), truth/labels/%06d.png (parts of what each pixel
-// measured). Frames count from 0. `progress` is called with the number of finished frames. Throws Error where the
-// folder exists or cannot be written.
+// image, else 0), truth/pose.csv (the upright world, the camera at its origin), truth/labels/%06d.png (parts of what
+// each pixel measured). Frames count from 0. `progress` is called with the number of finished frames. Throws Error
+// where the folder exists or cannot be written.
 void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const SynthesisConfig& config,
                          const std::filesystem::path& folder, const std::function<void(std::size_t)>& progress = {});
 

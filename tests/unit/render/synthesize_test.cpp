@@ -1,5 +1,6 @@
 #include "forest/render/synthesize.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -118,6 +119,50 @@ TEST_F(Synthesize, NoiseOffGivesTheExactSurface) {
 TEST_F(Synthesize, RefusesToOverwrite) {
   synthesizeRecording(bendingArms(1), body(), config_, folder_ / "rec");
   EXPECT_THROW(synthesizeRecording(bendingArms(1), body(), config_, folder_ / "rec"), Error);
+}
+
+// The depth of the picture at the pixel of a joint's row.
+double depthAt(const DepthFrame& frame, const CameraModel& camera, const Eigen::Vector3d& p_camera) {
+  const Eigen::Vector2d uv = camera.project(p_camera);
+  return static_cast<double>(
+      frame.depth.at(static_cast<int>(std::lround(uv.x())), static_cast<int>(std::lround(uv.y()))));
+}
+
+TEST_F(Synthesize, TruthOfATiltedCameraLiesInTheBody) {
+  config_.noise = false;
+  config_.camera_tilt = 0.3;
+  config_.staging.camera_height_m = 1.8;
+  synthesizeRecording(bendingArms(1), body(), config_, folder_ / "rec");
+  const auto reader = openRecording(folder_ / "rec");
+  DepthFrame frame;
+  reader->read(0, frame);
+  const JointsRow row = readJointsFile(folder_ / "rec" / "truth" / "joints.csv").front();
+  const PoseRow pose = readPoseFile(folder_ / "rec" / "truth" / "pose.csv").front();
+  for (const Joint joint : {Joint::Pelvis, Joint::Neck, Joint::LeftKnee}) {
+    const Eigen::Vector3d p = row.p_camera.col(static_cast<int>(joint));
+    const double behind = p.z() - depthAt(frame, config_.camera, p);
+    EXPECT_GT(behind, 0.01);
+    EXPECT_LT(behind, 0.2);
+  }
+  EXPECT_LT(std::abs(pose.q[kRootRx]), 1e-6) << "upright in the world, though not in the picture";
+}
+
+TEST_F(Synthesize, BystanderHidesTheActorAndIsNobodyInTheTruth) {
+  config_.noise = false;
+  synthesizeRecording(bendingArms(3), body(), config_, folder_ / "alone");
+  config_.bystander.emplace(Bystander{bendingArms(2), body(), {}});
+  config_.bystander->staging.distance_m = 1.9;
+  synthesizeRecording(bendingArms(3), body(), config_, folder_ / "two");
+  EXPECT_EQ(readBytes(folder_ / "two/truth/joints.csv"), readBytes(folder_ / "alone/truth/joints.csv"));
+  const JointsRow row = readJointsFile(folder_ / "two/truth/joints.csv").back();
+  const Eigen::Vector3d pelvis = row.p_camera.col(static_cast<int>(Joint::Pelvis));
+  DepthFrame frame;
+  openRecording(folder_ / "two")->read(2, frame);
+  EXPECT_LT(depthAt(frame, config_.camera, pelvis), pelvis.z() - 0.5) << "after the own motion's end, too";
+  PartImage labels;
+  readPng8(folder_ / "two/truth/labels/000002.png", config_.camera.width, config_.camera.height, labels);
+  const Eigen::Vector2d uv = config_.camera.project(pelvis);
+  EXPECT_EQ(labels.at(static_cast<int>(uv.x()), static_cast<int>(uv.y())), 0);
 }
 
 }  // namespace
