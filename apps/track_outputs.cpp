@@ -98,6 +98,7 @@ const TrackedFrame& TrackOutputs::Files::smooth(const TrackedFrame& tracked) {
     smoother.reset();
     return tracked;
   }
+  if (tracked.R_world_camera != smoothed.R_world_camera) smoother.reset();
   smoothed = tracked;
   smoothed.q = smoother.smooth(tracked.q, tracked.time_s);
   smoothed.joints_camera =

@@ -96,6 +96,8 @@ std::string ViewFrameEncoder::head(const TrackedFrame& tracked, const ViewFigure
                {"floor_y", rounded(floor_y_, 1e4)}};
   head["image"] = {{"width", width},   {"height", height}, {"step", step_},   {"fx", camera_.fx},
                    {"fy", camera_.fy}, {"cx", camera_.cx}, {"cy", camera_.cy}};
+  const Eigen::Quaterniond turn(tracked.R_world_camera * uprightWorldFromCamera().transpose());
+  head["image"]["turn"] = {turn.x(), turn.y(), turn.z(), turn.w()};
   if (!lost) addPose(head, tracked);
   if (figures.playback) {
     const Playback& p = *figures.playback;

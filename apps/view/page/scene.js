@@ -109,6 +109,7 @@ class Scene {
         ++n;
       }
     }
+    this.cloud.points.quaternion.fromArray(image.turn);
     geometry.setDrawRange(0, n);
     geometry.attributes.position.needsUpdate = true;
     geometry.attributes.color.needsUpdate = true;

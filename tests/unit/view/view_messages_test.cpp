@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -88,6 +89,25 @@ TEST(ViewFrame, HoldsPictureAndPose) {
   EXPECT_EQ(message[4 + length + 2 * pixels + 5 * 320 + 10], 9);
   std::memcpy(&mm, message.data() + 4 + length, 2);
   EXPECT_EQ(mm, 65535);
+}
+
+// A point of the picture and a joint at the same place, as a page draws them.
+TEST(ViewFrame, PictureAndJointsOfATiltedCameraMeet) {
+  const CameraModel camera{320, 240, 262, 262, 159.5, 119.5};
+  TrackedFrame tracked;
+  tracked.state = TrackState::Tracking;
+  tracked.R_world_camera = Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitX()) * uprightWorldFromCamera();
+  const Eigen::Vector3d p_camera(0.1, 0.2, 2.5);
+  tracked.joints_camera.col(0) = p_camera;
+  ViewFrameEncoder encoder(camera);
+  const std::string message = encoder.encode(DepthImage(320, 240, 1.0F), PartImage{}, tracked, {});
+  std::uint32_t length = 0;
+  std::memcpy(&length, message.data(), 4);
+  const json head = json::parse(message.substr(4, length));
+  const json& t = head["image"]["turn"];
+  const Eigen::Quaterniond turn(t[3], t[0], t[1], t[2]);
+  const Eigen::Vector3d drawn = turn * Eigen::Vector3d(p_camera.x(), -p_camera.y(), -p_camera.z());
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(drawn[axis], head["joints"][0][static_cast<size_t>(axis)], 2e-4);
 }
 
 TEST(ViewFrame, LostFrameHasNoPose) {
