@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "apps/live_calibration.h"
+#include "apps/view/frame_sender.h"
 #include "apps/view/live_page.h"
-#include "apps/view/view_frame.h"
 #include "apps/view_options.h"
 #include "libtracker/core/error.h"
 #include "libtracker/output/vmc_listener.h"
@@ -51,8 +51,8 @@ struct LiveView::Impl {
       : options(o),
         info(recording_info),
         tracker(t),
-        encoder(info.camera),
-        page(webServerConfig(o.view), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}) {
+        page(webServerConfig(o.view), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}),
+        sender(info.camera, [this](std::string message) { page.sendFrame(std::move(message)); }) {
     if (o.view.vmc_listen > 0) assistants.emplace(o.view.vmc_listen);
   }
 
@@ -64,11 +64,11 @@ struct LiveView::Impl {
   const TrackOptions& options;
   RecordingInfo info;
   Tracker& tracker;
-  ViewFrameEncoder encoder;
   ViewFigures figures;
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<LiveCalibration> calibration;
   LivePage page;
+  FrameSender sender;  // after the page
   std::optional<VmcListener> assistants;
 };
 
@@ -139,7 +139,7 @@ void LiveView::onFrame(const DepthFrame& frame, const TrackedFrame& shown) {
   if (s.page.frameWanted()) {
     s.figures.clients = s.page.server().clients();
     s.figures.recording = s.recorder != nullptr;
-    s.page.sendFrame(s.encoder.encode(frame.depth, shown.labels, shown, s.figures));
+    s.sender.send(frame.depth, shown, s.figures);
   }
   s.calibrate(frame);
   if (s.assistants && s.assistants->calibrationAsked()) s.obey({.action = ViewAction::Calibrate}, frame);

@@ -11,8 +11,8 @@
 namespace depthmocap {
 
 // The live page of a camera: shows what the tracker makes and does what the page asks for: record, calibrate, reset,
-// lock on another person. On the tracker's thread; making a message takes a fraction of a millisecond and is left out
-// where nobody could take it.
+// lock on another person. On the tracker's thread, which only copies a frame, and only where somebody could take it;
+// messages are made and sent in the background.
 class LiveView {
  public:
   // Starts the server. The tracker outlives the view.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/view/background.h"
 #include "apps/view/label_runs.h"
 #include "apps/view/live_page.h"
 #include "apps/view/view_frame.h"
@@ -64,6 +65,7 @@ struct ReplayView::Impl {
   double speed = 1;
   DepthFrame depth;
   PartImage labels;
+  ViewPicture picture;
 
   LivePage page;
   std::thread player;
@@ -142,11 +144,13 @@ bool ReplayView::Impl::show() {
   figures.clients = page.server().clients();
   figures.playback = Playback{static_cast<std::int64_t>(position), static_cast<std::int64_t>(count),
                               static_cast<std::int64_t>(total), playing, speed};
-  page.sendFrame(encoder.encode(depth.depth, labels, entry.tracked, figures));
+  encoder.pick(depth.depth, labels, picture);
+  page.sendFrame(encoder.encode(picture, entry.tracked, figures));
   return true;
 }
 
 void ReplayView::Impl::play() {
+  runInBackground();
   Clock::time_point last = Clock::now();
   Clock::time_point shown = last;
   while (!stop) {

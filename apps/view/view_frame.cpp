@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "libtracker/body/pose_surface.h"
@@ -17,7 +16,7 @@ using nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "messages are little-endian");
 
 constexpr int kMaxWidth = 320;  // [px] of the pictures in a message
-constexpr double kMillimetres = 1000.0;
+constexpr float kMillimetres = 1000.0F;
 
 double rounded(double value, double steps) {
   return std::round(value * steps) / steps;
@@ -74,13 +73,14 @@ json markers(const MarkerSet& markers_camera, const Eigen::Matrix3d& R_world_cam
 }  // namespace
 
 ViewFrameEncoder::ViewFrameEncoder(const CameraModel& camera)
-    : camera_(camera), step_(std::max(1, (camera.width + kMaxWidth - 1) / kMaxWidth)) {}
+    : camera_(camera),
+      step_(std::max(1, (camera.width + kMaxWidth - 1) / kMaxWidth)),
+      width_(camera.width / step_),
+      height_(camera.height / step_) {}
 
 std::string ViewFrameEncoder::head(const TrackedFrame& tracked, const ViewFigures& figures) {
   const bool lost = tracked.state == TrackState::Lost;
   if (!lost) floor_y_ = floor_.update(makeSkeleton(tracked.lengths), tracked.q, tracked.time_s).y();
-  const int width = camera_.width / step_;
-  const int height = camera_.height / step_;
   json head = {{"type", "frame"},
                {"frame", tracked.frame},
                {"time_s", rounded(tracked.time_s, 1e6)},
@@ -94,8 +94,8 @@ std::string ViewFrameEncoder::head(const TrackedFrame& tracked, const ViewFigure
                {"markers", markers(tracked.markers_camera, tracked.R_world_camera)},
                {"stature_m", rounded(tracked.stature_m, 1e4)},
                {"floor_y", rounded(floor_y_, 1e4)}};
-  head["image"] = {{"width", width},   {"height", height}, {"step", step_},   {"fx", camera_.fx},
-                   {"fy", camera_.fy}, {"cx", camera_.cx}, {"cy", camera_.cy}};
+  head["image"] = {{"width", width_},  {"height", height_}, {"step", step_},   {"fx", camera_.fx},
+                   {"fy", camera_.fy}, {"cx", camera_.cx},  {"cy", camera_.cy}};
   const Eigen::Quaterniond turn(tracked.R_world_camera * uprightWorldFromCamera().transpose());
   head["image"]["turn"] = {turn.x(), turn.y(), turn.z(), turn.w()};
   if (!lost) addPose(head, tracked);
@@ -107,29 +107,32 @@ std::string ViewFrameEncoder::head(const TrackedFrame& tracked, const ViewFigure
   return head.dump();
 }
 
-std::string ViewFrameEncoder::encode(const DepthImage& depth, const PartImage& labels, const TrackedFrame& tracked,
+void ViewFrameEncoder::pick(const DepthImage& depth, const PartImage& labels, ViewPicture& picture) const {
+  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  picture.depth_mm.resize(pixels);
+  picture.labels.assign(pixels, 0);
+  const bool has_labels = labels.width == depth.width && labels.height == depth.height;
+  std::size_t i = 0;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x, ++i) {
+      const float mm = depth.at(x * step_, y * step_) * kMillimetres;
+      picture.depth_mm[i] = static_cast<std::uint16_t>(std::clamp(mm + 0.5F, 0.0F, 65535.0F));
+      if (has_labels) picture.labels[i] = labels.at(x * step_, y * step_);
+    }
+  }
+}
+
+std::string ViewFrameEncoder::encode(const ViewPicture& picture, const TrackedFrame& tracked,
                                      const ViewFigures& figures) {
   std::string text = head(tracked, figures);
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  const int width = camera_.width / step_;
-  const int height = camera_.height / step_;
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto length = static_cast<std::uint32_t>(text.size());
-  std::string message(sizeof length + text.size() + 3 * pixels, '\0');
-  std::memcpy(message.data(), &length, sizeof length);
-  std::memcpy(message.data() + sizeof length, text.data(), text.size());
-  char* depths = message.data() + sizeof length + text.size();
-  char* parts = depths + 2 * pixels;
-  const bool has_labels = labels.width == depth.width && labels.height == depth.height;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const float mm = depth.at(x * step_, y * step_) * static_cast<float>(kMillimetres);
-      const auto value = static_cast<std::uint16_t>(std::clamp(mm + 0.5F, 0.0F, 65535.0F));
-      std::memcpy(depths, &value, sizeof value);
-      depths += sizeof value;
-      *parts++ = static_cast<char>(has_labels ? labels.at(x * step_, y * step_) : 0);
-    }
-  }
+  std::string message;
+  message.reserve(sizeof length + text.size() + 3 * picture.labels.size());
+  message.append(reinterpret_cast<const char*>(&length), sizeof length);
+  message += text;
+  message.append(reinterpret_cast<const char*>(picture.depth_mm.data()), 2 * picture.depth_mm.size());
+  message.append(reinterpret_cast<const char*>(picture.labels.data()), picture.labels.size());
   return message;
 }
 

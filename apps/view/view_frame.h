@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "libtracker/core/camera.h"
 #include "libtracker/core/depth_frame.h"
@@ -28,14 +29,20 @@ struct ViewFigures {
   std::optional<Playback> playback;
 };
 
+// Depth and labels of a message: every step-th pixel.
+struct ViewPicture {
+  std::vector<std::uint16_t> depth_mm;  // 0 = no measurement
+  std::vector<std::uint8_t> labels;
+};
+
 // Makes the binary message of a frame (docs/streaming.md, "frame"): JSON, then the depth picture in millimetres and the
 // part labels, at half the size or less. Keeps the height of the floor from frame to frame.
 class ViewFrameEncoder {
  public:
   explicit ViewFrameEncoder(const CameraModel& camera);
-  // `depth` and `labels` at full size; labels may be empty.
-  std::string encode(const DepthImage& depth, const PartImage& labels, const TrackedFrame& tracked,
-                     const ViewFigures& figures);
+  // `depth` and `labels` at full size; labels may be empty. Reuses the memory of `picture`.
+  void pick(const DepthImage& depth, const PartImage& labels, ViewPicture& picture) const;
+  std::string encode(const ViewPicture& picture, const TrackedFrame& tracked, const ViewFigures& figures);
   // Labels as they are in the message: every step-th pixel.
   [[nodiscard]] int step() const { return step_; }
 
@@ -44,6 +51,8 @@ class ViewFrameEncoder {
 
   CameraModel camera_;
   int step_;
+  int width_;  // [px] of the picture
+  int height_;
   FloorOrigin floor_;
   double floor_y_ = 0;
 };

@@ -1,24 +1,22 @@
 #include "apps/view/web_server.h"
 
 #include <algorithm>
-#include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/strand.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
-#include <deque>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
-#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "apps/view/background.h"
 #include "apps/view/request_guard.h"
+#include "apps/view/stream_hub.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/error.h"
 
@@ -34,10 +32,6 @@ using boost::system::error_code;
 
 constexpr std::chrono::seconds kRequestTime{10};  // for a request to arrive and its answer to leave
 constexpr std::uint32_t kMaxHeaderBytes = 8 * 1024;
-constexpr std::size_t kMaxMessageBytes = 4 * 1024;  // of a client
-constexpr std::size_t kMaxWaitingTexts = 32;        // per client
-constexpr const char* kReady = "ready";
-constexpr int kMaxUnconfirmed = 2;
 constexpr const char* kStreamPath = "/stream";
 
 using Request = http::request<http::string_body>;
@@ -68,8 +62,6 @@ Response responseOf(WebContent content, const Request& request) {
 
 }  // namespace
 
-class StreamClient;
-
 struct WebServer::Impl {
   explicit Impl(WebServerConfig c);
 
@@ -77,7 +69,6 @@ struct WebServer::Impl {
   void accept();
   WebContent answer(const Request& request);
   [[nodiscard]] std::string refusalOf(const Request& request, bool open = false) const;
-  void updateWanted();
 
   WebServerConfig config;
   GuardConfig guard;
@@ -90,117 +81,8 @@ struct WebServer::Impl {
   };
   std::map<std::string, File> files;
   std::map<std::pair<http::verb, std::string>, Handler> handlers;
-  TextHandler text_handler;
-  std::function<std::string()> greeting;
-  std::set<std::shared_ptr<StreamClient>> stream_clients;  // server's thread only
-  std::atomic<int> client_count{0};
-  std::atomic<bool> wanted{false};
+  StreamHub stream;
   std::thread thread;
-};
-
-// Counts a connection as long as it lives.
-class ConnectionCount {
- public:
-  explicit ConnectionCount(int& count) : count_(count) { ++count_; }
-  ~ConnectionCount() { --count_; }
-  ConnectionCount(const ConnectionCount&) = delete;
-  ConnectionCount& operator=(const ConnectionCount&) = delete;
-
- private:
-  int& count_;
-};
-
-// One client of /stream. All members are used on the server's thread.
-class StreamClient : public std::enable_shared_from_this<StreamClient> {
- public:
-  StreamClient(beast::tcp_stream stream, WebServer::Impl& server, std::shared_ptr<ConnectionCount> count)
-      : socket_(std::move(stream)), server_(server), count_(std::move(count)) {}
-
-  void run(const Request& request) {
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(kMaxMessageBytes);
-    socket_.async_accept(request, [self = shared_from_this()](error_code failure) {
-      if (!failure) self->joined();
-    });
-  }
-  void frame(std::shared_ptr<const std::string> frame) {
-    if (!hasCredit()) return;
-    frame_ = std::move(frame);
-    write();
-  }
-  void text(const std::string& text) {
-    if (texts_.size() >= kMaxWaitingTexts) return close();
-    texts_.push_back(std::make_shared<const std::string>(text));
-    write();
-  }
-  [[nodiscard]] bool waitsForFrame() const { return frame_ == nullptr && hasCredit(); }
-  void close() {
-    server_.stream_clients.erase(shared_from_this());
-    server_.client_count = static_cast<int>(server_.stream_clients.size());
-    server_.updateWanted();
-    beast::get_lowest_layer(socket_).close();
-  }
-
-  // Frames on their way wait in the buffers of the system and the browser, where they only grow old.
-  [[nodiscard]] bool hasCredit() const { return !confirms_ || unconfirmed_ < kMaxUnconfirmed; }
-
- private:
-  void joined() {
-    server_.stream_clients.insert(shared_from_this());
-    server_.client_count = static_cast<int>(server_.stream_clients.size());
-    server_.updateWanted();
-    if (server_.greeting) text(server_.greeting());
-    read();
-  }
-  void read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](error_code failure, std::size_t) {
-      if (failure) return self->close();
-      self->received();
-    });
-  }
-  void received() {
-    const bool is_text = socket_.got_text();
-    const std::string message = beast::buffers_to_string(buffer_.data());
-    buffer_.consume(buffer_.size());
-    if (is_text && message == kReady) {
-      confirms_ = true;
-      unconfirmed_ = std::max(0, unconfirmed_ - 1);
-      server_.updateWanted();
-    } else if (is_text && server_.text_handler) {
-      const std::string answer = server_.text_handler(message);
-      if (!answer.empty()) text(answer);
-    }
-    read();
-  }
-  void write() {
-    if (writing_ || (texts_.empty() && !frame_)) return;
-    if (!texts_.empty()) {
-      writing_ = texts_.front();
-      texts_.pop_front();
-      socket_.text(true);
-    } else {
-      writing_ = std::move(frame_);
-      frame_ = nullptr;
-      ++unconfirmed_;
-      socket_.binary(true);
-    }
-    server_.updateWanted();
-    socket_.async_write(asio::buffer(*writing_), [self = shared_from_this()](error_code failure, std::size_t) {
-      self->writing_ = nullptr;
-      if (failure) return self->close();
-      self->write();
-    });
-  }
-
-  websocket::stream<beast::tcp_stream> socket_;
-  WebServer::Impl& server_;
-  std::shared_ptr<ConnectionCount> count_;
-  beast::flat_buffer buffer_;
-  bool confirms_ = false;  // the client says "ready" for each frame that it is done with
-  int unconfirmed_ = 0;    // frames that were sent and not confirmed
-  std::shared_ptr<const std::string> writing_;
-  std::shared_ptr<const std::string> frame_;
-  std::deque<std::shared_ptr<const std::string>> texts_;
 };
 
 // One HTTP connection, until it ends or becomes a stream.
@@ -243,7 +125,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const std::string refused = server_.refusalOf(request);
     if (!refused.empty()) return write(responseOf(errorContent(403, refused), request));
     stream_.expires_never();
-    std::make_shared<StreamClient>(std::move(stream_), server_, count_)->run(request);
+    startStream(std::move(stream_), server_.stream, count_, request);
   }
   void write(Response response) {
     response_ = std::move(response);
@@ -329,18 +211,13 @@ WebContent WebServer::Impl::answer(const Request& request) {
   return errorContent(404, "there is nothing here");
 }
 
-void WebServer::Impl::updateWanted() {
-  wanted = std::any_of(stream_clients.begin(), stream_clients.end(),
-                       [](const auto& client) { return client->waitsForFrame(); });
-}
-
 WebServer::WebServer(WebServerConfig config) : impl_(std::make_unique<Impl>(std::move(config))) {}
 
 WebServer::~WebServer() {
   if (!impl_->thread.joinable()) return;
   impl_->io.stop();
   impl_->thread.join();
-  impl_->stream_clients.clear();
+  impl_->stream.clear();
 }
 
 void WebServer::serveFile(const std::string& path, WebContent content, bool open) {
@@ -356,40 +233,35 @@ void WebServer::onPost(const std::string& path, Handler handler) {
 }
 
 void WebServer::onText(TextHandler handler) {
-  impl_->text_handler = std::move(handler);
+  impl_->stream.on_text = std::move(handler);
 }
 
 void WebServer::setGreeting(std::function<std::string()> greeting) {
-  impl_->greeting = std::move(greeting);
+  impl_->stream.greeting = std::move(greeting);
 }
 
 void WebServer::start() {
   impl_->accept();
-  impl_->thread = std::thread([this] { impl_->io.run(); });
+  impl_->thread = std::thread([this] {
+    runInBackground();
+    impl_->io.run();
+  });
 }
 
 void WebServer::sendFrame(std::shared_ptr<const std::string> frame) {
-  asio::post(impl_->io, [this, frame = std::move(frame)] {
-    // A copy: a client that fails leaves the set.
-    const auto clients = impl_->stream_clients;
-    for (const auto& client : clients) client->frame(frame);
-    impl_->updateWanted();
-  });
+  asio::post(impl_->io, [this, frame = std::move(frame)] { impl_->stream.sendFrame(frame); });
 }
 
 void WebServer::sendText(const std::string& text) {
-  asio::post(impl_->io, [this, text] {
-    const auto clients = impl_->stream_clients;
-    for (const auto& client : clients) client->text(text);
-  });
+  asio::post(impl_->io, [this, text] { impl_->stream.sendText(text); });
 }
 
 int WebServer::clients() const {
-  return impl_->client_count;
+  return impl_->stream.count();
 }
 
 bool WebServer::frameWanted() const {
-  return impl_->wanted;
+  return impl_->stream.frameWanted();
 }
 
 std::uint16_t WebServer::port() const {

@@ -14,13 +14,21 @@ const MARKER_RADIUS = 0.026;
 const SKIN_BONES = 20;
 const UP = new THREE.Vector3(0, 1, 0);
 
+// Whether pictures are drawn without a graphics card, where smooth edges cost more than all else.
+function drawsInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl");
+  const info = gl && gl.getExtension("WEBGL_debug_renderer_info");
+  return Boolean(info) && /swiftshader|llvmpipe|software/i.test(gl.getParameter(info.UNMASKED_RENDERER_WEBGL));
+}
+
 class Scene {
   constructor(parent, jointNames, partColors, bodyStature) {
     this.parent = parent;
     this.jointIndex = new Map(jointNames.map((name, i) => [name, i]));
     this.colors = partColors.map((c) => c.map((v) => v / 255));
+    this.pointColors = partColors;
     this.bodyStature = bodyStature;
-    this.renderer = new THREE.WebGLRenderer({ antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: !drawsInSoftware() });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     parent.appendChild(this.renderer.domElement);
     this.scene = new THREE.Scene();
@@ -102,26 +110,28 @@ class Scene {
         positions[3 * n + 2] = -z;
         const part = labels[i];
         if (part > 0 && part < this.colors.length) {
-          colors.set(this.colors[part], 3 * n);
+          colors.set(this.pointColors[part], 4 * n);
         } else {
-          colors.fill(Math.max(0.12, 0.42 - 0.05 * z), 3 * n, 3 * n + 3);
+          colors.fill(255 * Math.max(0.12, 0.42 - 0.05 * z), 4 * n, 4 * n + 3);
         }
         ++n;
       }
     }
     this.cloud.points.quaternion.fromArray(image.turn);
     geometry.setDrawRange(0, n);
-    geometry.attributes.position.needsUpdate = true;
-    geometry.attributes.color.needsUpdate = true;
+    for (const attribute of [geometry.attributes.position, geometry.attributes.color]) {
+      attribute.updateRange.count = n * attribute.itemSize;
+      attribute.needsUpdate = true;
+    }
   }
 
   makeCloud(count) {
     if (this.cloud) this.scene.remove(this.cloud.points);
     const positions = new Float32Array(3 * count);
-    const colors = new Float32Array(3 * count);
+    const colors = new Uint8Array(4 * count);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3).setUsage(THREE.DynamicDrawUsage));
-    geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3).setUsage(THREE.DynamicDrawUsage));
+    geometry.setAttribute("color", new THREE.BufferAttribute(colors, 4, true).setUsage(THREE.DynamicDrawUsage));
     const material = new THREE.PointsMaterial({ size: 0.011, vertexColors: THREE.VertexColors });
     const points = new THREE.Points(geometry, material);
     points.frustumCulled = false;

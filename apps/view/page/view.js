@@ -7,6 +7,8 @@ const STAGES = ["segment", "classify", "markers", "prior", "solve", "total"];
 const ROOM_COLOR = [150, 158, 170];
 const SLOW_MS = 33;
 const FIGURES_MS = 150;
+const LOST_MS = 2000;   // before the page says what to do about it
+const LOST_TEXT = "Nobody is tracked. Stand 2 to 4 m before the camera, the whole body in view.";
 
 let hello = null;
 let scene = null;
@@ -19,11 +21,23 @@ let recording = false;
 let unconfirmed = 0;    // frames that came since the last "ready"
 let figuresShown = 0;   // when the numbers last changed: faster than eyes read is wasted
 let updates = [];
+let noticeTimer = 0;
+let lostSince = null;   // when the actor was lost [ms]
 const bars = new Map();
 
 function say(text, isError) {
   byId("message").textContent = text;
   byId("message").classList.toggle("error", Boolean(isError));
+}
+
+// In large letters over the scene, for people who stand before the camera; for some seconds, or until the next one.
+function notice(text, kind, seconds) {
+  const box = byId("notice");
+  clearTimeout(noticeTimer);
+  box.hidden = text === "";
+  box.textContent = text;
+  box.className = kind;
+  if (seconds) noticeTimer = setTimeout(() => notice("", ""), 1000 * seconds);
 }
 
 function send(message) {
@@ -63,6 +77,7 @@ function onHello(message) {
   }
   hello = message;
   byId("source").textContent = message.source;
+  byId("source").title = message.source;
   byId("player").hidden = message.mode !== "replay";
   for (const name of ["record", "calibrate", "reset", "lock"]) byId(name).disabled = !message.controls.includes(name);
   if (message.mode === "idle") say("No camera and no recording: start `depthmocap live --view` or `replay --view`.");
@@ -144,6 +159,7 @@ function draw() {
     if (now - figuresShown > FIGURES_MS || frame.state !== byId("state").textContent) {
       figuresShown = now;
       showFigures(frame);
+      adviseLost(frame, now);
     }
     showPlayer(frame.playback);
     scene.changed = true;
@@ -155,10 +171,28 @@ function draw() {
   scene.render();
 }
 
+function onEvent({ what, text }) {
+  say(text, what === "failure");
+  if (what === "calibrate") notice(text, "");
+  if (what === "calibrated") notice(text, "done", 6);
+  if (what === "failure") notice(text, "error", 8);
+}
+
 function onText(message) {
   if (message.type === "hello") onHello(message);
-  if (message.type === "event") say(message.text);
+  if (message.type === "event") onEvent(message);
   if (message.type === "error") say(message.error, true);
+}
+
+// A camera that sees nobody for a while.
+function adviseLost(frame, now) {
+  if (hello.mode !== "live") return;
+  const lost = frame.state === "lost";
+  if (lost && lostSince === null) lostSince = now;
+  if (lost && now - lostSince > LOST_MS && byId("notice").hidden) notice(LOST_TEXT, "");
+  if (lost) return;
+  lostSince = null;
+  if (byId("notice").textContent === LOST_TEXT) notice("", "");
 }
 
 function connect() {
@@ -177,6 +211,7 @@ function connect() {
     newest = null;
     byId("state").textContent = "no connection";
     byId("state").className = "state lost";
+    notice("No connection to the program; trying again.", "error", 3);
     setTimeout(connect, 1000);
   };
 }
@@ -191,16 +226,16 @@ byId("speed").onchange = () => send({ type: "speed", value: Number(byId("speed")
 byId("record").onclick = () => send({ type: "record", on: recording ? 0 : 1 });
 byId("calibrate").onclick = () => send({ type: "calibrate" });
 byId("reset").onclick = () => send({ type: "reset" });
-byId("lock").onclick = () => {
-  picking = true;
-  byId("picture").classList.add("picking");
-  say("Click the person in the depth picture.");
-};
+function pick(on) {
+  picking = on;
+  byId("picture").classList.toggle("picking", on);
+  byId("lock").classList.toggle("on", on);
+  say(on ? "Click the person in the depth picture; Escape: none." : "");
+}
+byId("lock").onclick = () => pick(!picking);
 byId("picture").onclick = (event) => {
   if (!picking) return;
-  picking = false;
-  byId("picture").classList.remove("picking");
-  say("");
+  pick(false);
   const box = byId("picture").getBoundingClientRect();
   send({ type: "lock", x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height });
 };
@@ -216,6 +251,7 @@ byId("show-skeleton").onchange = () => {
 byId("show-surface").onchange = () => scene.setSurfaceVisible(byId("show-surface").checked, withToken("/body.glb"));
 byId("home").onclick = () => scene.home();
 document.addEventListener("keydown", (event) => {
+  if (event.code === "Escape" && picking) pick(false);
   if (event.code !== "Space" || event.target.tagName === "BUTTON") return;
   event.preventDefault();
   byId("play").click();

@@ -54,6 +54,13 @@ TEST(LabelRuns, GiveBackEveryStepthPixel) {
   EXPECT_TRUE(none.empty());
 }
 
+std::string messageOf(ViewFrameEncoder& encoder, const DepthImage& depth, const PartImage& labels,
+                      const TrackedFrame& tracked, const ViewFigures& figures) {
+  ViewPicture picture;
+  encoder.pick(depth, labels, picture);
+  return encoder.encode(picture, tracked, figures);
+}
+
 TEST(ViewFrame, HoldsPictureAndPose) {
   CameraModel camera;
   DepthImage depth(camera.width, camera.height, 0.0F);
@@ -69,7 +76,7 @@ TEST(ViewFrame, HoldsPictureAndPose) {
   ViewFrameEncoder encoder(camera);
   ViewFigures figures;
   figures.playback = Playback{.index = 3, .tracked = 5, .total = 9, .playing = true, .speed = 2};
-  const std::string message = encoder.encode(depth, labels, tracked, figures);
+  const std::string message = messageOf(encoder, depth, labels, tracked, figures);
   std::uint32_t length = 0;
   std::memcpy(&length, message.data(), 4);
   EXPECT_EQ(length % 4, 0U);
@@ -100,7 +107,7 @@ TEST(ViewFrame, PictureAndJointsOfATiltedCameraMeet) {
   const Eigen::Vector3d p_camera(0.1, 0.2, 2.5);
   tracked.joints_camera.col(0) = p_camera;
   ViewFrameEncoder encoder(camera);
-  const std::string message = encoder.encode(DepthImage(320, 240, 1.0F), PartImage{}, tracked, {});
+  const std::string message = messageOf(encoder, DepthImage(320, 240, 1.0F), PartImage{}, tracked, {});
   std::uint32_t length = 0;
   std::memcpy(&length, message.data(), 4);
   const json head = json::parse(message.substr(4, length));
@@ -113,7 +120,7 @@ TEST(ViewFrame, PictureAndJointsOfATiltedCameraMeet) {
 TEST(ViewFrame, LostFrameHasNoPose) {
   const CameraModel camera{320, 240, 262, 262, 159.5, 119.5};
   ViewFrameEncoder encoder(camera);
-  const std::string message = encoder.encode(DepthImage(320, 240, 1.0F), PartImage{}, TrackedFrame{}, {});
+  const std::string message = messageOf(encoder, DepthImage(320, 240, 1.0F), PartImage{}, TrackedFrame{}, {});
   std::uint32_t length = 0;
   std::memcpy(&length, message.data(), 4);
   const json head = json::parse(message.substr(4, length));
