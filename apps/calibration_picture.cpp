@@ -24,19 +24,21 @@ constexpr int kPanelWidth = 640;
 constexpr int kPanelHeight = 720;
 constexpr double kBodyShare = 0.84;  // of the panel's height that the stature takes
 constexpr double kSideTurn = 65.0 * std::numbers::pi / 180.0;
+constexpr double kSideDown = 12.0 * std::numbers::pi / 180.0;
 constexpr int kRingPoints = 40;
 constexpr int kRings = 5;
 const cv::Scalar kBackground(38, 34, 32);
 const cv::Scalar kTorsoColor(210, 130, 190);
 
-// An orthographic view of the body, turned about its vertical axis.
+// An orthographic view of the body, turned about its vertical axis and seen from above.
 class View {
  public:
-  View(cv::Mat panel, const Vector3d& center, double stature_m, double turn)
+  View(cv::Mat panel, const Vector3d& center, double stature_m, double turn, double down)
       : panel_(std::move(panel)),
         center_(center),
         scale_(kBodyShare * kPanelHeight / stature_m),
-        R_(Eigen::AngleAxisd(turn, Vector3d::UnitY()).toRotationMatrix()) {
+        R_((Eigen::AngleAxisd(down, Vector3d::UnitX()) * Eigen::AngleAxisd(turn, Vector3d::UnitY()))
+               .toRotationMatrix()) {
     panel_.setTo(kBackground);
     nearest_ = cv::Mat(panel_.size(), CV_32F, cv::Scalar(-1e9));
   }
@@ -141,7 +143,7 @@ void writeCalibrationPicture(const std::filesystem::path& path, const Calibrator
   const Vector3d center = shown.q.head<3>() + Vector3d(0, l.torso + 1.7 * l.neck_to_head - 0.5 * actor.stature(), 0);
   for (int i = 0; i < 2; ++i) {
     View view(canvas(cv::Rect(i * kPanelWidth, 0, kPanelWidth, kPanelHeight)), center,
-              std::max(actor.stature(), 1.0) * 1.08, i == 0 ? 0.0 : -kSideTurn);
+              std::max(actor.stature(), 1.0) * 1.08, i == 0 ? 0.0 : -kSideTurn, i == 0 ? 0.0 : kSideDown);
     drawCloud(shown, camera, view);
     drawLimbs(shown.limbs, view);
     drawBones(actor, shown.q, view);

@@ -211,7 +211,9 @@ PoseObservation Calibrator::Impl::observationOf(const GoodFrame& g, const ShapeV
 CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frames,
                                       const std::vector<PoseObservation>& others) {
   const GoodFrame& first = *frames.front();
-  shown.limbs = fitLimbs(first.cloud, first.outline);
+  std::vector<std::vector<CloudPoint>> clouds;
+  for (const GoodFrame* frame : frames) clouds.push_back(frame->cloud);
+  shown.limbs = fitLimbs(clouds, first.outline);
   std::array<JointSolution, 2> solutions;
   parallelFor(config.threads, templates.size(), [&](std::size_t i) {
     const ShapeVector start = startShape(templates[i], first.outline, shown.limbs);

@@ -1,98 +1,82 @@
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include <pcl/console/print.h>
-#include <pcl/features/normal_3d.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/ransac.h>
-#include <pcl/sample_consensus/sac_model_cylinder.h>
-#include <pcl/search/kdtree.h>
+#include <pcl/sample_consensus/sac_model_circle.h>
 
 #include "calibration/limb_shapes.h"
 
 namespace depthmocap {
 namespace {
 
-constexpr std::size_t kFewestPoints = 30;
-constexpr std::size_t kMostPoints = 600;  // more do not change the fit
-constexpr int kNormalNeighbours = 30;
-constexpr double kNormalWeight = 0.01;  // [m / rad] normals of a noisy depth image help little
-constexpr double kLeastShare = 0.5;     // of the points that a believed cylinder explains
+constexpr std::size_t kMostPoints = 1000;  // more do not change the fit
+constexpr double kLeastShare = 0.5;        // of the points that a believed cylinder explains
+constexpr double kLeastWidth = 0.8;        // radius over the outline's half width
+constexpr double kMostWidth = 1.2;
+constexpr int kRefinements = 3;
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-using Normals = pcl::PointCloud<pcl::Normal>;
-using Model = pcl::SampleConsensusModelCylinder<pcl::PointXYZ, pcl::Normal>;
+using Circle = pcl::SampleConsensusModelCircle2D<pcl::PointXYZ>;
 
-Cloud::Ptr toCloud(const std::vector<Eigen::Vector3f>& points) {
-  Cloud::Ptr cloud(new Cloud);
+// The points as seen along the axis: across and towards the camera, from the outline's middle. Each with its mirror
+// image about that middle, so that noise in depth does not move the section to one side.
+Cloud::Ptr sectionOf(const std::vector<Eigen::Vector3f>& points, const LimbOutline& outline) {
+  Cloud::Ptr section(new Cloud);
   const std::size_t count = std::min(points.size(), kMostPoints);
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f& p = points[i * points.size() / count];
-    cloud->emplace_back(p.x(), p.y(), p.z());
+    const Eigen::Vector3d p = points[i * points.size() / count].cast<double>() - outline.middle;
+    const auto across = static_cast<float>(outline.across.dot(p));
+    const auto front = static_cast<float>(outline.front.dot(p));
+    section->emplace_back(across, front, 0.0F);
+    section->emplace_back(-across, front, 0.0F);
   }
-  return cloud;
+  return section;
 }
 
-Normals::Ptr normalsOf(const Cloud::Ptr& cloud) {
-  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-  estimation.setInputCloud(cloud);
-  estimation.setSearchMethod(pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
-  estimation.setKSearch(kNormalNeighbours);
-  estimation.setViewPoint(0, 0, 0);
-  Normals::Ptr normals(new Normals);
-  estimation.compute(*normals);
-  return normals;
-}
-
-Cylinder fromCoefficients(const Eigen::VectorXf& c, const Eigen::Vector3d& expected_axis, const Cloud& cloud) {
-  Cylinder cylinder;
-  cylinder.point = c.head<3>().cast<double>();
-  cylinder.axis = c.segment<3>(3).cast<double>().normalized();
-  if (cylinder.axis.dot(expected_axis) < 0) cylinder.axis = -cylinder.axis;
-  cylinder.radius = static_cast<double>(c[6]);
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& p : cloud) mean += p.getVector3fMap().cast<double>() / static_cast<double>(cloud.size());
-  cylinder.point += cylinder.axis * cylinder.axis.dot(mean - cylinder.point);
-  cylinder.low = std::numeric_limits<double>::max();
-  cylinder.high = std::numeric_limits<double>::lowest();
-  for (const auto& p : cloud) {
-    const double t = cylinder.axis.dot(p.getVector3fMap().cast<double>() - cylinder.point);
-    cylinder.low = std::min(cylinder.low, t);
-    cylinder.high = std::max(cylinder.high, t);
+// Least squares over the inliers, as long as the radius stays within its limits.
+void refine(Circle& model, double inlier_m, Eigen::VectorXf& circle, pcl::Indices& inliers) {
+  for (int i = 0; i < kRefinements; ++i) {
+    Eigen::VectorXf better;
+    model.optimizeModelCoefficients(inliers, circle, better);
+    pcl::Indices next;
+    model.selectWithinDistance(better, inlier_m, next);  // none outside the limits
+    if (next.size() < inliers.size() / 2) return;
+    circle = better;
+    inliers = std::move(next);
   }
-  return cylinder;
 }
 
 }  // namespace
 
 std::optional<Cylinder> fitCylinder(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& expected_axis,
                                     const CylinderFitConfig& config) {
-  if (points.size() < kFewestPoints) return std::nullopt;
+  const auto outline = limbOutline(points, expected_axis);
+  if (!outline) return std::nullopt;
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // a limb without a cylinder is no news
-  const Cloud::Ptr cloud = toCloud(points);
-  const Model::Ptr model(new Model(cloud, false));  // not random: PCL's own fixed seed
-  model->setInputNormals(normalsOf(cloud));
-  model->setNormalDistanceWeight(kNormalWeight);
-  model->setRadiusLimits(config.min_radius_m, config.max_radius_m);
-  model->setAxis(expected_axis.cast<float>());
-  model->setEpsAngle(config.max_axis_tilt);
-  pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, config.inlier_m);
+  const double inlier_m = std::max(config.inlier_m, config.inlier_per_m2 * outline->middle.squaredNorm());
+  const Cloud::Ptr section = sectionOf(points, *outline);
+  const Circle::Ptr model(new Circle(section, false));  // not random: PCL's own fixed seed
+  model->setRadiusLimits(kLeastWidth * outline->half_width, kMostWidth * outline->half_width);
+  pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, inlier_m);
   ransac.setMaxIterations(config.iterations);
   ransac.setProbability(0.999);
   if (!ransac.computeModel()) return std::nullopt;
-  Eigen::VectorXf coefficients;
-  ransac.getModelCoefficients(coefficients);
+  Eigen::VectorXf circle;
+  ransac.getModelCoefficients(circle);
   pcl::Indices inliers;
-  model->selectWithinDistance(coefficients, config.inlier_m, inliers);
-  const double share = static_cast<double>(inliers.size()) / static_cast<double>(cloud->size());
-  if (share < kLeastShare) return std::nullopt;
-  Eigen::VectorXf refined;
-  model->optimizeModelCoefficients(inliers, coefficients, refined);
-  const bool usable = refined.size() == 7 && refined.allFinite() &&
-                      static_cast<double>(refined[6]) >= config.min_radius_m &&
-                      static_cast<double>(refined[6]) <= config.max_radius_m;
-  Cylinder cylinder = fromCoefficients(usable ? refined : coefficients, expected_axis, *cloud);
-  cylinder.inlier_share = share;
+  ransac.getInliers(inliers);
+  refine(*model, inlier_m, circle, inliers);
+  Cylinder cylinder;
+  cylinder.inlier_share = static_cast<double>(inliers.size()) / static_cast<double>(section->size());
+  if (cylinder.inlier_share < kLeastShare) return std::nullopt;
+  cylinder.axis = outline->axis;
+  cylinder.point = outline->middle + static_cast<double>(circle[0]) * outline->across +
+                   static_cast<double>(circle[1]) * outline->front;
+  cylinder.radius = static_cast<double>(circle[2]);
+  cylinder.low = outline->low;
+  cylinder.high = outline->high;
   return cylinder;
 }
 

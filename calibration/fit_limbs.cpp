@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace depthmocap {
@@ -13,6 +14,7 @@ using Eigen::Vector3d;
 constexpr double kSurfaceScale_m = 0.02;  // a fit this far from the cloud counts 1/e
 constexpr double kLeastGirthShare = 0.6;  // of that of the stature: a cylinder outside is not believed as a start
 constexpr double kMostGirthShare = 1.7;
+constexpr double kTrunkShare = 0.6;  // of the torso's height that lies below the armpits
 
 constexpr std::pair<Part, Girth> kLimbs[] = {{Part::LeftUpperArm, Girth::UpperArm},
                                              {Part::LeftLowerArm, Girth::LowerArm},
@@ -41,6 +43,22 @@ double sharedRadius(const FittedLimbs& limbs, Part part) {
   return weight > 0 ? sum / weight : 0.0;
 }
 
+// A part's points of all frames, moved so that their middle is that of the first.
+std::vector<Eigen::Vector3f> overlaid(const std::vector<std::vector<CloudPoint>>& clouds, Part part) {
+  std::vector<Eigen::Vector3f> all;
+  Eigen::Vector3f first = Eigen::Vector3f::Zero();
+  for (const auto& cloud : clouds) {
+    std::vector<Eigen::Vector3f> points = pointsOf(cloud, part);
+    if (points.empty()) continue;
+    const Eigen::Vector3f middle =
+        std::accumulate(points.begin(), points.end(), Eigen::Vector3f(Eigen::Vector3f::Zero())) /
+        static_cast<float>(points.size());
+    if (all.empty()) first = middle;
+    for (Eigen::Vector3f& p : points) all.push_back(p + first - middle);
+  }
+  return all;
+}
+
 // The points of a limb without hand, foot or what blends into the next part.
 std::vector<Eigen::Vector3f> shaft(std::vector<Eigen::Vector3f> points, Part part, const Vector3d& axis) {
   if (points.size() < 10) return {};
@@ -57,6 +75,15 @@ std::vector<Eigen::Vector3f> shaft(std::vector<Eigen::Vector3f> points, Part par
     const double t = axis.dot(p.template cast<double>());
     return t < cut_low || t > cut_high;
   });
+  return points;
+}
+
+// The trunk below the armpits, where it is as wide as its outline.
+std::vector<Eigen::Vector3f> belowArmpits(std::vector<Eigen::Vector3f> points) {
+  if (points.empty()) return points;
+  const auto [low, high] = extentAlong(points, Vector3d::UnitY(), Vector3d::Zero());
+  const double cut = low + kTrunkShare * (high - low);
+  std::erase_if(points, [&](const auto& p) { return static_cast<double>(p.y()) > cut; });
   return points;
 }
 
@@ -78,7 +105,7 @@ double templateRadius(const BodyTemplate& body, Part part) {
 
 }  // namespace
 
-FittedLimbs fitLimbs(const std::vector<CloudPoint>& cloud, const BodyOutline& outline) {
+FittedLimbs fitLimbs(const std::vector<std::vector<CloudPoint>>& clouds, const BodyOutline& outline) {
   FittedLimbs limbs;
   const Vector3d left = (outline.left_hand - outline.right_hand).normalized();
   const Vector3d down = -Vector3d::UnitY();
@@ -88,10 +115,13 @@ FittedLimbs fitLimbs(const std::vector<CloudPoint>& cloud, const BodyOutline& ou
       const bool is_left = part == limb.first;
       const Vector3d axis = isArm(part) ? Vector3d(is_left ? left : -left) : down;
       limbs.cylinders[static_cast<std::size_t>(partIndex(part))] =
-          fitCylinder(shaft(pointsOf(cloud, part), part, axis), axis, config);
+          fitCylinder(shaft(overlaid(clouds, part), part, axis), axis, config);
     }
   }
-  limbs.torso = fitEllipticCylinder(pointsOf(cloud, Part::Torso), Vector3d::UnitY(), left, config);
+  const std::vector<Eigen::Vector3f> torso = overlaid(clouds, Part::Torso);
+  limbs.torso = fitEllipticCylinder(belowArmpits(torso), Vector3d::UnitY(), config);
+  if (limbs.torso)
+    std::tie(limbs.torso->low, limbs.torso->high) = extentAlong(torso, limbs.torso->axis, limbs.torso->center);
   return limbs;
 }
 

@@ -7,8 +7,9 @@
 
 namespace depthmocap {
 
-// Cylinders to the arms and legs, an elliptic cylinder to the torso.
-FittedLimbs fitLimbs(const std::vector<CloudPoint>& cloud, const BodyOutline& outline);
+// Cylinders to the arms and legs, an elliptic cylinder to the torso, by the clouds of all frames: each part's points
+// are laid over those of the first frame.
+FittedLimbs fitLimbs(const std::vector<std::vector<CloudPoint>>& clouds, const BodyOutline& outline);
 
 // s_0 and the girths to start from: the average body of the outline's height, its limbs as thick as the cylinders, left
 // and right equal.
