@@ -149,6 +149,8 @@ class RoleFinder {
   [[nodiscard]] Vector3d headCenter(const BoneRoles& roles) const {
     const MotionBone& head = bones_[static_cast<std::size_t>(roles.head)];
     if (head.has_tip && head.tip.norm() > 0) return 0.5 * head.tip;
+    const int crown = indexOf("headtopend");
+    if (crown >= 0 && parentOf(crown) == roles.head) return 0.5 * bones_[static_cast<std::size_t>(crown)].offset;
     const RestTrunk trunk = restTrunk(rest_, roles);
     const Vector3d up = trunk.axes.col(1);
     double height = 0;

@@ -15,6 +15,20 @@ constexpr std::array<std::string_view, kBoneCount> kBvhNames = {
 constexpr double kHandPerLowerArm = 0.7;
 constexpr double kToesPerFoot = 0.4;
 
+// An End Site cannot move; where bones do, the crown is a bone of its own.
+std::vector<MotionBone> writtenBones(const Skeleton& skeleton, bool moving_bones) {
+  std::vector<MotionBone> bones = bvhBones(skeleton);
+  if (!moving_bones) return bones;
+  MotionBone& head = bones[static_cast<std::size_t>(Bone::Head)];
+  MotionBone crown;
+  crown.name = "HeadTop_End";
+  crown.parent = static_cast<int>(Bone::Head);
+  crown.offset = head.tip;
+  head.has_tip = false;
+  bones.push_back(crown);
+  return bones;
+}
+
 }  // namespace
 
 std::vector<MotionBone> bvhBones(const Skeleton& s) {
@@ -48,8 +62,8 @@ std::vector<MotionBone> bvhBones(const Skeleton& s) {
 
 BvhWriter::BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale,
                      bool moving_bones)
-    : rows_(path, bvhBones(skeleton), fps, scale, moving_bones) {
-  for (const MotionBone& bone : bvhBones(skeleton)) positions_.push_back(bone.offset);
+    : rows_(path, writtenBones(skeleton, moving_bones), fps, scale, moving_bones) {
+  for (const MotionBone& bone : writtenBones(skeleton, moving_bones)) positions_.push_back(bone.offset);
   rotations_.assign(positions_.size(), Eigen::Quaterniond::Identity());
 }
 
@@ -58,7 +72,7 @@ void BvhWriter::write(const Pose& q) {
 }
 
 void BvhWriter::write(const Pose& q, const Skeleton& skeleton) {
-  const std::vector<MotionBone> bones = bvhBones(skeleton);
+  const std::vector<MotionBone> bones = writtenBones(skeleton, true);
   for (std::size_t b = 0; b < bones.size(); ++b) positions_[b] = bones[b].offset;
   writeRow(q);
 }

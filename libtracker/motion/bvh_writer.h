@@ -12,7 +12,8 @@ namespace depthmocap {
 // centimetres. Hands and toes do not move by themselves.
 class BvhWriter {
  public:
-  // `moving_bones`: every bone has position channels, for a body whose size is still being found.
+  // `moving_bones`: every bone has position channels, and the crown is the bone HeadTop_End, for a body whose size is
+  // still being found.
   BvhWriter(const std::filesystem::path& path, const Skeleton& skeleton, double fps, double scale = 1.0,
             bool moving_bones = false);
   void write(const Pose& q);
