@@ -1,13 +1,13 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "libtracker/skeleton/floor_height.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {
 
 // A place on the floor for programs that expect the actor to stand at y = 0 near the origin: below where the hips were
-// first seen, at the height of the lower sole. The height follows slowly, because without knowledge of gravity the
-// floor of a tilted camera rises or falls with the distance; a jump hardly moves it.
+// first seen, at the height of the lower sole (see FloorHeight).
 class FloorOrigin {
  public:
   // World, y up [m]; times must grow.
@@ -15,7 +15,7 @@ class FloorOrigin {
 
  private:
   bool started_ = false;
-  double time_s_ = 0;
+  FloorHeight height_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
 };
 

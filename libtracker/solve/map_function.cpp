@@ -8,7 +8,8 @@ constexpr int kPriorRow = kMarkerRow + MarkerTerm::kRows;
 constexpr int kSmoothRow = kPriorRow + PriorTerm::kRows;
 constexpr int kLimitRow = kSmoothRow + SmoothTerm::kRows;
 constexpr int kSurfaceRow = kLimitRow + LimitTerm::kRows;
-static_assert(kSurfaceRow + SurfaceTerm::kRows == MapFunction::NUM_RESIDUALS);
+constexpr int kContactRow = kSurfaceRow + SurfaceTerm::kRows;
+static_assert(kContactRow + ContactTerm::kRows == MapFunction::NUM_RESIDUALS);
 
 using Residuals = Eigen::Matrix<double, MapFunction::NUM_RESIDUALS, 1>;
 using Jacobian = Eigen::Matrix<double, MapFunction::NUM_RESIDUALS, kDofCount>;
@@ -37,7 +38,8 @@ MapFunction::MapFunction(const MapInput& input, const MapConfig& config)
       prior_(input.prior, config.lambda_prior),
       smooth_(input.q_prev, input.q_prev2, input.time_ratio * config.velocity_share, config.lambda_smooth),
       limit_(config.lambda_limit),
-      surface_(input.skeleton, input.surface, config.lambda_surface, config.sigma_surface_m) {}
+      surface_(input.skeleton, input.surface, config.lambda_surface, config.sigma_surface_m),
+      contact_(input.skeleton, input.contacts, config.lambda_contact, config.sigma_contact_m) {}
 
 bool MapFunction::operator()(const double* parameters, double* residuals, double* jacobian) const {
   const Pose q = Eigen::Map<const Pose>(parameters);
@@ -47,6 +49,7 @@ bool MapFunction::operator()(const double* parameters, double* residuals, double
   evaluateTerm(smooth_, kSmoothRow, q, r, jacobian);
   evaluateTerm(limit_, kLimitRow, q, r, jacobian);
   evaluateTerm(surface_, kSurfaceRow, q, r, jacobian);
+  evaluateTerm(contact_, kContactRow, q, r, jacobian);
   return true;
 }
 
@@ -59,6 +62,7 @@ void MapFunction::summarise(const Pose& q, MapSummary& summary) const {
   summary.e_smooth = unweighted(r.segment<SmoothTerm::kRows>(kSmoothRow).squaredNorm(), config_.lambda_smooth);
   summary.e_limit = unweighted(r.segment<LimitTerm::kRows>(kLimitRow).squaredNorm(), config_.lambda_limit);
   summary.e_surface = unweighted(r.segment<SurfaceTerm::kRows>(kSurfaceRow).squaredNorm(), config_.lambda_surface);
+  summary.e_contact = unweighted(r.segment<ContactTerm::kRows>(kContactRow).squaredNorm(), config_.lambda_contact);
   summary.rms_marker_m = marker_.rms(q);
 }
 

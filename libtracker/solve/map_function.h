@@ -1,4 +1,5 @@
 #pragma once
+#include "libtracker/solve/contact_term.h"
 #include "libtracker/solve/limit_term.h"
 #include "libtracker/solve/map_solver.h"
 #include "libtracker/solve/marker_term.h"
@@ -15,7 +16,8 @@ class MapFunction {
   using Scalar = double;
   // Names and kind as TinySolver wants them.
   enum {
-    NUM_RESIDUALS = MarkerTerm::kRows + PriorTerm::kRows + SmoothTerm::kRows + LimitTerm::kRows + SurfaceTerm::kRows,
+    NUM_RESIDUALS = MarkerTerm::kRows + PriorTerm::kRows + SmoothTerm::kRows + LimitTerm::kRows + SurfaceTerm::kRows +
+                    ContactTerm::kRows,
     NUM_PARAMETERS = kDofCount
   };
 
@@ -33,6 +35,7 @@ class MapFunction {
   SmoothTerm smooth_;
   LimitTerm limit_;
   mutable SurfaceTerm surface_;
+  mutable ContactTerm contact_;
 };
 
 }  // namespace depthmocap

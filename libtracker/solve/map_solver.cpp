@@ -42,6 +42,8 @@ void MapConfig::validate() const {
   require(lambda_limit >= 0, "lambda_limit", lambda_limit, "at least 0");
   require(lambda_surface >= 0, "lambda_surface", lambda_surface, "at least 0");
   require(sigma_surface_m > 0, "sigma_surface_m", sigma_surface_m, "above 0");
+  require(lambda_contact >= 0, "lambda_contact", lambda_contact, "at least 0");
+  require(sigma_contact_m > 0, "sigma_contact_m", sigma_contact_m, "above 0");
   require(velocity_share >= 0 && velocity_share <= 1, "velocity_share", velocity_share, "from 0 to 1");
   require(sigma_m > 0, "sigma_m", sigma_m, "above 0");
   require(max_iterations >= 1, "max_iterations", max_iterations, "at least 1");

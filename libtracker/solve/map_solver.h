@@ -5,6 +5,7 @@
 #include "libtracker/skeleton/local_prior.h"
 #include "libtracker/skeleton/marker_model.h"
 #include "libtracker/skeleton/skeleton.h"
+#include "libtracker/solve/contact_term.h"
 #include "libtracker/solve/surface_match.h"
 
 namespace depthmocap {
@@ -17,6 +18,8 @@ struct MapConfig {
   double lambda_limit = 10.0;      // (>= 0) joint limits, beyond the paper; 0 = none
   double lambda_surface = 0.5;     // (>= 0) a match of the dense term, beyond the paper; 0 = none
   double sigma_surface_m = 0.03;   // [m] (> 0) of the dense term
+  double lambda_contact = 5.0;     // (>= 0) a foot that stands, beyond the paper; 0 = none
+  double sigma_contact_m = 0.02;   // [m] (> 0) of its Lorentzian
   double velocity_share = 1.0;     // (0 .. 1) share of the last velocity that E_smooth expects to go on; 1: the paper
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
   int max_iterations = 20;         // (>= 1) a guard: the mean is about 5
@@ -34,6 +37,7 @@ struct MapInput {
   const Pose* q_prev = nullptr;
   const Pose* q_prev2 = nullptr;
   const SurfaceMatches* surface = nullptr;  // nullptr: no dense term
+  const FootContacts* contacts = nullptr;   // nullptr: no foot stands
   double time_ratio = 1.0;                  // (> 0) time since q_prev over the time between q_prev2 and q_prev
 };
 
@@ -45,6 +49,7 @@ struct MapSummary {
   double e_smooth = 0;      // [m^2 + rad^2]
   double e_limit = 0;       // [rad^2]
   double e_surface = 0;     // squared distances over 2 sigma^2
+  double e_contact = 0;     // of the feet that stand
   double rms_marker_m = 0;  // [m] confidence-weighted distance of the seen markers; 0 if none
   int iterations = 0;       // Levenberg-Marquardt steps tried
   bool converged = false;   // false: max_iterations came first

@@ -9,11 +9,7 @@ namespace depthmocap {
 // lambda2 E_marker of equation (5): sum over seen markers of lambda * confidence * rho(|f(q) - a~|), rho the
 // Lorentzian.
 //
-// Rows: three a marker, r = sqrt(lambda * confidence * rho(|e|) / |e|^2) e with e = f(q) - a~, so that |r|^2 is exactly
-// that; then one a marker whose residual is always 0 and whose "Jacobian" only adds curvature. For sqrt(rho) is
-// concave: Gauss-Newton on r alone overshoots a marker that is further than sigma away (by 2.4 times at 4 sigma). The
-// extra row raises the curvature along e to rho'(|e|^2), that of iteratively reweighted least squares, whose quadratic
-// model lies above rho everywhere. Energy and gradient stay exact.
+// Rows: three a marker, then one a marker for its curvature (see RobustPull).
 class MarkerTerm {
  public:
   static constexpr int kResidualRows = 3 * kPartCount;

@@ -22,13 +22,14 @@ void takePaperWeights(TrackerConfig& config) {
   config.solve.velocity_share = paper.velocity_share;
 }
 
-constexpr std::array<OptionalPart, 8> kParts = {{
+constexpr std::array<OptionalPart, 9> kParts = {{
     {"prior", [](TrackerConfig& c) { c.solve.lambda_prior = 0; }},
     {"smooth", [](TrackerConfig& c) { c.solve.lambda_smooth = 0; }},
     {"limits", [](TrackerConfig& c) { c.solve.lambda_limit = 0; }},
     {"push-in", [](TrackerConfig& c) { c.markers.push_in = false; }},
     {"dense", [](TrackerConfig& c) { c.policy.dense_rounds = 0; }},
     {"sides", [](TrackerConfig& c) { c.policy.expect_sides = false; }},
+    {"feet", [](TrackerConfig& c) { c.policy.hold_feet = false; }},
     {"recovery", [](TrackerConfig& c) { c.policy.suspect_rms_m = std::numeric_limits<double>::max(); }},
     {"weights", takePaperWeights},
 }};

@@ -11,6 +11,7 @@
 #include "libtracker/solve/size_estimate.h"
 #include "libtracker/tracker/alignment.h"
 #include "libtracker/tracker/dense_refinement.h"
+#include "libtracker/tracker/foot_watch.h"
 #include "libtracker/tracker/global_search.h"
 #include "libtracker/tracker/joint_confidence.h"
 #include "libtracker/tracker/side_expectation.h"
@@ -80,6 +81,10 @@ struct Tracker::Stages {
   bool turnAround(const DepthImage& depth);
   std::optional<FirstPose> poseFromAnySide(const FacingShares& shares, const DepthImage& depth);
   bool solveNext(const DepthImage& depth);
+  // Without what the frames before say.
+  [[nodiscard]] double energyOfImage(const MapSummary& fit) const {
+    return fit.energy - config.solve.lambda_smooth * fit.e_smooth - config.solve.lambda_contact * fit.e_contact;
+  }
   void finish();
   [[nodiscard]] double searchScale() const { return statureOf(size.actor().skeleton.lengths) / search_stature_m; }
   [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config.policy.max_rms_m; }
@@ -88,7 +93,6 @@ struct Tracker::Stages {
     return wanted_camera ? &*wanted_camera : nullptr;
   }
   double observedScale(const Pose& q);
-  [[nodiscard]] JointPositions jointsCamera() const;
 
   const std::shared_ptr<const TrackerModels> models;
   const CameraModel camera;
@@ -100,6 +104,7 @@ struct Tracker::Stages {
   SizeAdapter size;
   const double search_stature_m;  // of the skeleton whose markers the search holds
   TrackHistory history;
+  FootWatch feet;
 
   Segmenter segmenter;
   MarkerFinder finder;
@@ -153,7 +158,7 @@ void Tracker::Stages::predict() {
   if (config.policy.expect_sides) classify_config.facing_prior = expectedFacing(q_predicted);
   predicted_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), q_predicted, fk));
   predicted_centroid_camera = predicted_camera.position.col(partIndex(Part::Torso));
-  joints_predicted_camera = jointsCamera();
+  joints_predicted_camera = R_world_camera.transpose() * jointPositions(size.actor().skeleton, q_predicted);
 }
 
 // The floor says which way is up; where it says so anew, the poses before are turned with the world.
@@ -161,17 +166,8 @@ void Tracker::Stages::levelWorld() {
   const Eigen::Matrix3d R_before_camera = R_world_camera;
   if (!world.observe(segmentation)) return;
   history.turnWorld(R_world_camera * R_before_camera.transpose());
+  feet.reset();
   predict();
-}
-
-// The joints at the pose that fk holds.
-JointPositions Tracker::Stages::jointsCamera() const {
-  const auto points = jointPoints(size.actor().skeleton);
-  JointPositions joints;
-  for (int j = 0; j < kJointCount; ++j) {
-    joints.col(j) = R_world_camera.transpose() * fk.position(points[static_cast<std::size_t>(j)]);
-  }
-  return joints;
 }
 
 // (1): a body part for each pixel; the pose before helps to tell left from right.
@@ -208,6 +204,8 @@ void Tracker::Stages::solve(const DepthImage& depth) {
   const bool found = enough && (predicted ? solveNext(depth) : solveFirst(depth));
   if (found) wanted_camera.reset();
   if (!found) history.miss(out.time_s, config.policy.coast_s);
+  if (!found || out.reinitialised) return feet.reset();
+  feet.observe(size.actor().skeleton, history.prev(), out.time_s, world.floor());
 }
 
 // The first pose, or the first after a loss.
@@ -222,8 +220,7 @@ bool Tracker::Stages::turnAround(const DepthImage& depth) {
   const double doubt = static_cast<double>(pixels.facing_by_image[tracked]);
   disputed_frames = doubt < kDisputedShare ? disputed_frames + 1 : 0;
   if (disputed_frames % kDisputePeriod != kDisputePatience) return false;
-  const double tracked_cost = summary.energy - config.solve.lambda_smooth * summary.e_smooth -
-                              kFacingWeight * std::log(std::max<double>(doubt, kLikelyFacing));
+  const double tracked_cost = energyOfImage(summary) - kFacingWeight * std::log(std::max<double>(doubt, kLikelyFacing));
   const SizeAdapter size_before = size;
   pixels_before = pixels;
   const MarkerSet markers_before = out.markers_camera;
@@ -297,15 +294,16 @@ bool Tracker::Stages::solveNext(const DepthImage& depth) {
   Pose q = q_predicted;
   const Pose q_prev2 = history.prev2(out.time_s);
   const ActorModel& actor = size.actor();
-  const MapInput input{actor.skeleton, actor.markers, markers_world, &prior, &history.prev(), &q_prev2};
+  MapInput input{actor.skeleton, actor.markers, markers_world, &prior, &history.prev(), &q_prev2};
+  if (config.policy.hold_feet) input.contacts = &feet.contacts();
   summary = solver.solve(input, q);
   if (summary.rms_marker_m > config.policy.suspect_rms_m) {
     const auto& other =
         global.find(markers_world, searchScale(), actor, models->database, search, prior_builder, solver);
-    if (other.found && other.summary.energy < config.policy.switch_gain *
-                                                  (summary.energy - config.solve.lambda_smooth * summary.e_smooth)) {
+    if (other.found && other.summary.energy < config.policy.switch_gain * energyOfImage(summary)) {
       summary = other.summary;
       q = other.q;
+      input.contacts = nullptr;
       out.reinitialised = true;
     }
   }
@@ -341,7 +339,7 @@ void Tracker::Stages::finish() {
   if (out.state == TrackState::Lost) return;
   out.q = history.prev();
   out.model_markers_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), out.q, fk));
-  out.joints_camera = jointsCamera();
+  out.joints_camera = R_world_camera.transpose() * jointPositions(size.actor().skeleton, out.q);
   if (out.state != TrackState::Tracking) return;
   out.confidence = jointConfidence(out.markers_camera, out.model_markers_camera);
   out.rms_marker_m = summary.rms_marker_m;

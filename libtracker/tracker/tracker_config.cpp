@@ -27,6 +27,7 @@ TrackerConfig paperConfig() {
   config.solve = MapConfig{};
   config.policy.dense_rounds = 0;
   config.policy.expect_sides = false;
+  config.policy.hold_feet = false;
   return config;
 }
 

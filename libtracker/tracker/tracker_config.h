@@ -20,6 +20,7 @@ struct TrackPolicy {
   int start_poses = 6;           // (>= 1) database poses a global search solves from
   int dense_rounds = 3;          // (>= 0) of matching depth with the body's surface; 0 = markers only, the paper
   bool expect_sides = true;      // the pose before tells left from right in the classifier's answer; false: the paper
+  bool hold_feet = true;         // feet that stand are held where they are; false: the paper
   double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
   double adapt_s = 3.0;             // [s] of good frames over which an uncalibrated actor's size is fitted
   void validate() const;

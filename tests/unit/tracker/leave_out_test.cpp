@@ -9,13 +9,14 @@ namespace {
 
 TEST(LeaveOut, WithoutOursThePapersMethodIsLeft) {
   TrackerConfig config;
-  for (const char* part : {"weights", "dense", "sides"}) leaveOut(part, config);
+  for (const char* part : {"weights", "dense", "sides", "feet"}) leaveOut(part, config);
   const TrackerConfig paper = paperConfig();
   EXPECT_EQ(config.solve.lambda_prior, paper.solve.lambda_prior);
   EXPECT_EQ(config.solve.lambda_smooth, paper.solve.lambda_smooth);
   EXPECT_EQ(config.solve.velocity_share, paper.solve.velocity_share);
   EXPECT_EQ(config.policy.dense_rounds, paper.policy.dense_rounds);
   EXPECT_EQ(config.policy.expect_sides, paper.policy.expect_sides);
+  EXPECT_EQ(config.policy.hold_feet, paper.policy.hold_feet);
 }
 
 TEST(LeaveOut, TheOrderDoesNotMatter) {
