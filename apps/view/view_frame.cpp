@@ -112,13 +112,15 @@ void ViewFrameEncoder::pick(const DepthImage& depth, const PartImage& labels, Vi
   picture.depth_mm.resize(pixels);
   picture.labels.assign(pixels, 0);
   const bool has_labels = labels.width == depth.width && labels.height == depth.height;
-  std::size_t i = 0;
+  std::uint16_t* mm = picture.depth_mm.data();
+  std::uint8_t* parts = picture.labels.data();
   for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x, ++i) {
-      const float mm = depth.at(x * step_, y * step_) * kMillimetres;
-      picture.depth_mm[i] = static_cast<std::uint16_t>(std::clamp(mm + 0.5F, 0.0F, 65535.0F));
-      if (has_labels) picture.labels[i] = labels.at(x * step_, y * step_);
+    const float* depth_row = &depth.at(0, y * step_);
+    const std::uint8_t* label_row = has_labels ? &labels.at(0, y * step_) : nullptr;
+    for (int x = 0; x < width_; ++x) {
+      *mm++ = static_cast<std::uint16_t>(std::min(depth_row[x * step_] * kMillimetres + 0.5F, 65535.0F));
     }
+    for (int x = 0; has_labels && x < width_; ++x) *parts++ = label_row[x * step_];
   }
 }
 
