@@ -15,6 +15,7 @@
 #include "apps/progress.h"
 #include "apps/shipped_files.h"
 #include "apps/stop_request.h"
+#include "apps/tracker_setup.h"
 #include "calibration/calibrator.h"
 #include "calibration/pose_collector.h"
 #include "libtracker/core/error.h"
@@ -73,16 +74,28 @@ void collect(RecordingReader& reader, Calibrator& calibrator) {
   }
 }
 
-// Tracks the recording with the body that the T-pose gave, to learn more from other poses.
-std::vector<PoseObservation> otherPoses(const CalibrateOptions& o, RecordingReader& reader,
-                                        const CalibratorModels& calibration, const CalibratedActor& actor) {
-  const auto models = std::make_shared<TrackerModels>();
-  models->forest = calibration.general;
-  models->database = loadPoseDatabase(o.posedb.empty() ? shippedFile("default.posedb") : o.posedb);
-  models->surface = actorSurface(actor, o.config.surface_points);
-  TrackerConfig config;
-  config.threads = o.config.threads;
-  Tracker tracker(models, reader.info().camera, config, actor.model);
+// What the tracker makes of a recording.
+struct OtherPoses {
+  std::vector<PoseObservation> observations;
+  double stature_m = 0;  // [m] of the body that it was tracked with in the end
+};
+
+// Tracks the recording with the body that the T-pose gave, or (null) with an average one of the assumed stature, to
+// learn from other poses.
+OtherPoses otherPoses(const CalibrateOptions& o, RecordingReader& reader, const CalibratedActor* actor,
+                      double assumed_stature_m = 0) {
+  TrackOptions track;
+  track.forest = o.forest;
+  track.posedb = o.posedb;
+  auto models = std::make_shared<TrackerModels>(*loadTrackerModels(track));
+  std::optional<ActorModel> body;
+  if (actor != nullptr) {
+    models->surface = actorSurface(*actor, o.config.surface_points);
+    body = actor->model;
+  }
+  track.threads = o.config.threads;
+  track.assumed_stature_m = assumed_stature_m;
+  Tracker tracker(models, reader.info().camera, trackerConfig(track), body);
   PoseCollector collector(reader.info().camera, o.config.points_per_part);
   const std::size_t count = std::min(reader.frameCount(), kMostTracked);
   Progress progress("looking at other poses", count);
@@ -91,7 +104,7 @@ std::vector<PoseObservation> otherPoses(const CalibrateOptions& o, RecordingRead
     if (readFrame(reader, i, frame)) collector.add(frame, tracker.process(frame));
     progress.update(i + 1);
   }
-  return collector.chosen(kOtherFrames);
+  return {collector.chosen(kOtherFrames), statureOf(tracker.actor().skeleton.lengths)};
 }
 
 // What a calibration gave and how long its solve took.
@@ -101,11 +114,11 @@ struct Calibration {
   double solve_s = 0;
 };
 
-CalibratedActor timedSolve(Calibrator& calibrator, double& seconds) {
+template <typename Work>
+double timed(Work&& work) {
   const auto start = Clock::now();
-  CalibratedActor actor = calibrator.solve();
-  seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return actor;
+  work();
+  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 // Until enough good frames have come; tells the actor what to change.
@@ -132,7 +145,7 @@ Calibration calibrateLive(const CalibrateOptions& o) {
   watch(*source, calibrator, o.seconds);
   Calibration result;
   result.info = source->info();
-  result.actor = timedSolve(calibrator, result.solve_s);
+  result.solve_s = timed([&] { result.actor = calibrator.solve(); });
   if (!o.preview.empty()) {
     writeCalibrationPicture(o.preview, calibrator.shown(), result.actor, result.info.camera);
   }
@@ -141,14 +154,20 @@ Calibration calibrateLive(const CalibrateOptions& o) {
 
 Calibration calibrateRecording(const CalibrateOptions& o) {
   const auto reader = openRecording(o.recording);
-  const auto models = loadModels(o);
-  Calibrator calibrator(models, reader->info().camera, o.config);
+  Calibrator calibrator(loadModels(o), reader->info().camera, o.config);
   collect(*reader, calibrator);
   Calibration result;
   result.info = reader->info();
-  result.actor = timedSolve(calibrator, result.solve_s);
+  if (o.config.any_pose) {
+    // Once to learn the size, once with it.
+    const OtherPoses others = otherPoses(o, *reader, nullptr, otherPoses(o, *reader, nullptr).stature_m);
+    result.solve_s = timed([&] { result.actor = calibrator.solveWithoutTPose(others.observations, others.stature_m); });
+    return result;
+  }
+  result.solve_s = timed([&] { result.actor = calibrator.solve(); });
   if (!o.tpose_only) {
-    const auto others = otherPoses(o, *reader, *models, scaledActor(result.actor, 1.0 / result.actor.depth_scale));
+    const CalibratedActor as_seen = scaledActor(result.actor, 1.0 / result.actor.depth_scale);
+    const auto others = otherPoses(o, *reader, &as_seen).observations;
     if (others.size() >= kFewestOthers) result.actor = calibrator.solve(others);
   }
   if (!o.preview.empty()) {
@@ -160,6 +179,9 @@ Calibration calibrateRecording(const CalibrateOptions& o) {
 void calibrate(CalibrateOptions o) {
   o.config.check.tolerance_rad = o.tolerance_deg * std::numbers::pi / 180.0;
   const bool is_camera = !fs::exists(o.recording) && checkSourceName(o.recording.string()).empty();
+  if (is_camera && o.config.any_pose) {
+    throw Error("--any-pose needs a recording", o.recording.string(), "record first, or stand in a T-pose");
+  }
   Calibration result = is_camera ? calibrateLive(o) : calibrateRecording(o);
   result.actor.camera = result.info.camera_name;
   writeActorFile(o.out, result.actor);
@@ -196,6 +218,11 @@ void addCalibrateCommand(CLI::App& app) {
   command->add_option("--forest", o->forest, "Body-part classifier that the tracker will use");
   command->add_option("--posedb", o->posedb, "Pose database, for the frames that are no T-pose");
   command->add_flag("--tpose-only", o->tpose_only, "Use nothing but the T-pose, as the paper does");
+  command
+      ->add_flag("--any-pose", o->config.any_pose,
+                 "A recording without a T-pose: measure by whatever poses it shows, less surely")
+      ->excludes("--tpose-only")
+      ->excludes("--preview");
   command->add_option("--shape-space", o->shape_space, "Statistics of bone lengths");
   command->add_option("--threads", o->config.threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -28,7 +29,10 @@ constexpr std::size_t kFewestPixels = 300;  // classified, of an actor
 constexpr int kStride_px = 2;
 constexpr double kScaleTolerance = 0.02;
 constexpr double kLeastConfidence = 0.2;    // good fits have 0.6 and more, rough old recordings 0.4
+constexpr std::size_t kFewestPoses = 4;     // other than a T-pose, where there is none
 constexpr double kAverageStature_m = 1.69;  // of the bodies that the T-pose forest was trained with
+
+const TPoseVerdict kTwoPeople{TPoseFault::TwoPeople, "two people are in view: only one may be", 0};
 
 // A good frame, kept until the solve.
 struct GoodFrame {
@@ -95,8 +99,13 @@ struct Calibrator::Impl {
   MarkerSet findMarkers(double stature_m);
   void keep(GoodFrame good);
   [[nodiscard]] PoseObservation observationOf(const GoodFrame& good, const ShapeVector& shape) const;
+  using Start = std::function<ShapeVector(const BodyTemplate&)>;
   CalibratedActor fit(const std::vector<const GoodFrame*>& frames, const std::vector<PoseObservation>& others);
+  CalibratedActor fitBetterTemplate(const std::vector<const GoodFrame*>& frames,
+                                    const std::vector<PoseObservation>& others, const Start& start, Pose& q);
+  void refuseTwoPeople() const;
   [[noreturn]] void refuse() const;
+  [[nodiscard]] CalibratedActor believed(const CalibratedActor& actor) const;
 
   const std::shared_ptr<const CalibratorModels> models;
   const CameraModel camera;
@@ -123,6 +132,10 @@ TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
   segmenter.segment(frame.depth, camera, nullptr, segmentation);
   const std::vector<Eigen::Vector3f> points = actorPoints(frame.depth, segmentation.mask, camera);
   if (points.size() < kFewestPixels) return {TPoseFault::Nobody, "nobody is in view", 0};
+  if (config.any_pose) {
+    ++good_count;
+    return secondPerson(frame) ? kTwoPeople : TPoseVerdict{TPoseFault::None, {}, 0};
+  }
   GoodFrame candidate;
   candidate.outline = measureOutline(points);
   TPoseVerdict verdict = checkTPose(segmentation.mask, candidate.outline, config.check);
@@ -133,7 +146,7 @@ TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
   if (findMarkers(stature).seenCount() < kFewestParts) {
     return {TPoseFault::PartsMissing, "not all body parts are recognised: stand freely, away from furniture", 0};
   }
-  if (secondPerson(frame)) return {TPoseFault::TwoPeople, "two people are in view: only one may be", 0};
+  if (secondPerson(frame)) return kTwoPeople;
   classify(models->general, frame.depth, segmentation.mask, camera.fx, classify_config, memory, pixels);
   candidate.markers_world = findMarkers(stature);
   candidate.frame = frame;
@@ -214,16 +227,30 @@ CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frame
   std::vector<std::vector<CloudPoint>> clouds;
   for (const GoodFrame* frame : frames) clouds.push_back(frame->cloud);
   shown.limbs = fitLimbs(clouds, first.outline);
+  Pose q;
+  const auto start = [&](const BodyTemplate& body) { return startShape(body, first.outline, shown.limbs); };
+  CalibratedActor actor = fitBetterTemplate(frames, others, start, q);
+  setRadii(shown.limbs, actor);
+  shown.frame = first.frame;
+  shown.mask = first.mask;
+  shown.q = q;
+  return actor;
+}
+
+// The man's or the woman's body, whichever fits better; `q` is the pose of the first frame.
+CalibratedActor Calibrator::Impl::fitBetterTemplate(const std::vector<const GoodFrame*>& frames,
+                                                    const std::vector<PoseObservation>& others, const Start& start,
+                                                    Pose& q) {
   std::array<JointSolution, 2> solutions;
   parallelFor(config.threads, templates.size(), [&](std::size_t i) {
-    const ShapeVector start = startShape(templates[i], first.outline, shown.limbs);
+    const ShapeVector shape = start(templates[i]);
     std::vector<PoseObservation> observations;
     for (const GoodFrame* frame : frames) {
-      observations.push_back(observationOf(*frame, start));
+      observations.push_back(observationOf(*frame, shape));
       observations.back().weight = 1.0 / static_cast<double>(frames.size());
     }
     observations.insert(observations.end(), others.begin(), others.end());
-    solutions[i] = solveJointly(templates[i], models->space, observations, start, config.solve);
+    solutions[i] = solveJointly(templates[i], models->space, observations, shape, config.solve);
   });
   const std::size_t best = solutions[1].cost < solutions[0].cost ? 1 : 0;
   const JointSolution& solution = solutions[best];
@@ -232,16 +259,35 @@ CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frame
   actor.shape = solution.shape;
   actor.model = actorOfShape(templates[best], solution.shape);
   actor.model.markers = solution.markers;
-  setRadii(shown.limbs, actor);
   actor.fit.tpose_frames = static_cast<int>(frames.size());
   actor.fit.other_frames = static_cast<int>(others.size());
   actor.fit.surface_m = solution.rms_surface_m;
   actor.fit.marker_m = solution.rms_marker_m;
   actor.fit.confidence = fitConfidence(solution);
-  shown.frame = first.frame;
-  shown.mask = first.mask;
-  shown.q = solution.poses.front();
+  q = solution.poses.front();
   return actor;
+}
+
+void Calibrator::Impl::refuseTwoPeople() const {
+  const auto two = faults.find(TPoseFault::TwoPeople);
+  if (two == faults.end() || two->second.first <= kTwoPeopleShare * (two->second.first + good_count)) return;
+  throw Error("two people are in view", "calibration", "let only the actor stand before the camera");
+}
+
+// The actor, scaled to the stature that is given; throws where the fit says that it is none.
+CalibratedActor Calibrator::Impl::believed(const CalibratedActor& actor) const {
+  if (actor.fit.confidence < kLeastConfidence) {
+    throw Error(
+        fmt::format("the body that fits best lies {:.0f} mm off the depth points: this is no T-pose, or no bare "
+                    "view of a person",
+                    1000 * actor.fit.surface_m),
+        "calibration", "record again, without long coats and away from furniture");
+  }
+  if (actor.stature() < config.check.min_stature_m || actor.stature() > config.check.max_stature_m) {
+    throw Error(fmt::format("what is in view is {:.2f} m tall: no adult's size", actor.stature()), "calibration",
+                "let only the actor stand before the camera");
+  }
+  return config.stature_m ? withStature(actor, *config.stature_m) : actor;
 }
 
 void Calibrator::Impl::refuse() const {
@@ -290,22 +336,28 @@ bool Calibrator::enough() const {
 
 CalibratedActor Calibrator::solve(const std::vector<PoseObservation>& others) {
   Impl& s = *impl_;
-  const auto two = s.faults.find(TPoseFault::TwoPeople);
-  if (two != s.faults.end() && two->second.first > kTwoPeopleShare * (two->second.first + s.good_count)) {
-    throw Error("two people are in view", "calibration", "let only the actor stand before the camera");
-  }
+  s.refuseTwoPeople();
   if (!enough()) s.refuse();
   std::vector<const GoodFrame*> frames;
   for (const GoodFrame& frame : s.good) frames.push_back(&frame);
-  const CalibratedActor actor = s.fit(frames, others);
-  if (actor.fit.confidence < kLeastConfidence) {
-    throw Error(
-        fmt::format("the body that fits best lies {:.0f} mm off the depth points: this is no T-pose, or no bare "
-                    "view of a person",
-                    1000 * actor.fit.surface_m),
-        "calibration", "record again, without long coats and away from furniture");
+  return s.believed(s.fit(frames, others));
+}
+
+CalibratedActor Calibrator::solveWithoutTPose(const std::vector<PoseObservation>& others, double stature_m) {
+  Impl& s = *impl_;
+  s.refuseTwoPeople();
+  if (!enough()) s.refuse();
+  if (others.size() < kFewestPoses) {
+    throw Error(fmt::format("only {} frames show clearly different poses, and without a T-pose {} are needed",
+                            others.size(), kFewestPoses),
+                "calibration", "move arms and legs in view of the camera, or stand in a T-pose");
   }
-  return s.config.stature_m ? withStature(actor, *s.config.stature_m) : actor;
+  const auto start = [&](const BodyTemplate& body) {
+    const BoneLengths lengths = boneLengths(body.templateShape());
+    return shapeVector(lengths.scaled(stature_m / statureOf(lengths)), body.girthOf(stature_m));
+  };
+  Pose q;
+  return s.believed(s.fitBetterTemplate({}, others, start, q));
 }
 
 const Calibrator::Shown& Calibrator::shown() const {

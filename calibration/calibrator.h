@@ -22,6 +22,7 @@ struct CalibratorConfig {
   int surface_points = 1500;        // (>= 100) of the template
   int points_per_part = 30;         // (>= 5) of the cloud of one frame
   int threads = 2;                  // (>= 1)
+  bool any_pose = false;            // no T-pose is asked for: solveWithoutTPose() will measure
   void validate() const;            // throws Error naming field, value and rule
 };
 
@@ -54,6 +55,10 @@ class Calibrator {
   // frames (with the most frequent fault), two people, no body that fits. `others`: frames in other poses
   // (PoseCollector), which are solved for together with the T-pose.
   CalibratedActor solve(const std::vector<PoseObservation>& others = {});
+
+  // Where there is no T-pose (config.any_pose): the body by frames in other poses alone, less surely. `stature_m` [m]:
+  // what the tracker that gave the poses took it for. Throws Error as solve() does.
+  CalibratedActor solveWithoutTPose(const std::vector<PoseObservation>& others, double stature_m);
 
   // Of the last solve(): the frame that a preview shows, its mask, the limbs and the pose.
   struct Shown {

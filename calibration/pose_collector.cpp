@@ -8,7 +8,7 @@
 namespace depthmocap {
 namespace {
 
-constexpr double kMaxRms_m = 0.05;       // of the markers: a worse fit is not used
+constexpr double kMaxRms_m = 0.06;       // of the markers: a worse fit is not used
 constexpr double kMinConfidence = 0.35;  // mean over the joints
 constexpr double kLeastChange = 0.6;     // [rad] norm over the limbs' DoFs, from the T-pose and from each other
 constexpr int kEvery = 2;                // frames looked at: neighbours say the same

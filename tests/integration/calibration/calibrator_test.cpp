@@ -141,6 +141,24 @@ TEST(Calibrator, RefusesTwoPeople) {
   EXPECT_NE(error.find("two people are in view"), std::string::npos) << error;
 }
 
+TEST(Calibrator, WithoutATPoseItStillRefusesTwoPeopleFewFramesAndFewPoses) {
+  const CameraModel camera = sensorCamera(SensorKind::Kinect1);
+  CalibratorConfig config;
+  config.any_pose = true;
+  const BodySurface man = adult(Sex::Male, 1.75, 70);
+  const auto refusal = [&](const std::vector<Stander>& people, int frames) {
+    Calibrator calibrator(shippedModels(), camera, config);
+    for (int i = 0; i < frames; ++i) calibrator.add(photograph(people, SensorKind::Kinect1, camera, i));
+    return errorOf([&] { calibrator.solveWithoutTPose({}, 1.7); });
+  };
+  const Stander lowered = standing(man, -0.4, 2.9, 0, -1.3);
+  EXPECT_NE(refusal({lowered}, 10).find("only 0 frames show clearly different poses"), std::string::npos)
+      << refusal({lowered}, 10);
+  EXPECT_NE(refusal({lowered}, 5).find("5 frames are too few"), std::string::npos) << refusal({lowered}, 5);
+  const std::string two = refusal({lowered, standing(adult(Sex::Female, 1.65, 60), 0.6, 3.3, 0, -1.3)}, 10);
+  EXPECT_NE(two.find("two people are in view"), std::string::npos) << two;
+}
+
 TEST(Calibrator, RefusesFiveFrames) {
   const CameraModel camera = sensorCamera(SensorKind::Kinect1);
   Calibrator calibrator(shippedModels(), camera, {});
