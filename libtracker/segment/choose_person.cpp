@@ -29,8 +29,12 @@ constexpr float kBoxFill = 0.90F;     // cupboards less
 constexpr float kPanelThickness_m = 0.012F;   // a door or cupboard front; a body is 4 cm and more
 constexpr float kPanelNoise_per_m = 0.0015F;  // and what depth noise adds, times depth^2
 constexpr float kCutBySideShare = 0.5F;       // who is half out of the view is less likely the actor
-constexpr float kPredictionReach_m = 0.5F;
-constexpr float kFarFromPrediction = 0.02F;  // an actor elsewhere is still found when nobody is where one was expected
+constexpr float kNearExpected_m = 0.5F;
+constexpr float kExpectedReach_m = 1.0F;  // from the expected place,
+constexpr float kPace_m_s = 1.2F;         // and more the longer the actor was not seen
+constexpr float kSomebodyElse = 0.02F;
+constexpr int kMinActorCells = 12;  // who is known may be hidden for the most part
+constexpr float kRemnant = 0.25F;   // of the usual area; what is left may be a hand that was taken for the actor's
 
 // 1 up to `full_at`, falling to kThingShare at `thing_at`.
 float likeness(float value, float full_at, float thing_at) {
@@ -53,6 +57,14 @@ float shapeScore(const Component& c, float box_share, const SegmentConfig& confi
   return c.touches_side ? kCutBySideShare * score : score;
 }
 
+// 1 at the expected place, 0 where the actor cannot have gone.
+float nearness(const Component& c, const ExpectedActor& expected) {
+  const float distance = (c.mean - expected.p_camera.cast<float>()).norm();
+  if (distance > kExpectedReach_m + kPace_m_s * static_cast<float>(expected.unseen_s)) return 0;
+  const float relative = distance / kNearExpected_m;
+  return kSomebodyElse + 1.0F / (1.0F + relative * relative * relative * relative);
+}
+
 }  // namespace
 
 bool looksCutOut(const CoarseCloud& cloud, const std::vector<Component>& components) {
@@ -64,25 +76,37 @@ bool looksCutOut(const CoarseCloud& cloud, const std::vector<Component>& compone
   });
 }
 
-std::int32_t choosePerson(const std::vector<Component>& components, const SegmentConfig& config,
-                          const ChoiceContext& context) {
-  std::int32_t best = kNoComponent;
-  float best_score = 0;
+Choice choosePerson(const std::vector<Component>& components, const SegmentConfig& config, const ChoiceContext& context,
+                    std::vector<float>& scores) {
+  scores.assign(components.size(), 0.0F);
+  std::int32_t actor = kNoComponent;
   for (std::size_t k = 0; k < components.size(); ++k) {
     const Component& c = components[k];
-    if (c.cells < context.min_area_cells) continue;
-    float score = static_cast<float>(c.cells) / c.mean.z();
-    if (!context.cut_out) score *= shapeScore(c, (*context.box_shares)[k], config);
-    if (context.predicted != nullptr) {
-      const float distance = (c.mean - context.predicted->cast<float>()).norm() / kPredictionReach_m;
-      score *= kFarFromPrediction + 1.0F / (1.0F + distance * distance * distance * distance);
+    if (c.cells >= context.min_area_cells) {
+      scores[k] = static_cast<float>(c.cells) / c.mean.z();
+      if (!context.cut_out) scores[k] *= shapeScore(c, (*context.box_shares)[k], config);
     }
-    if (score > best_score) {
-      best_score = score;
-      best = static_cast<std::int32_t>(k);
-    }
+    const bool larger = actor == kNoComponent || c.cells > components[static_cast<std::size_t>(actor)].cells;
+    if (c.who == Identity::Actor && c.cells >= kMinActorCells && larger) actor = static_cast<std::int32_t>(k);
   }
-  return best;
+
+  const Component* known = actor == kNoComponent ? nullptr : &components[static_cast<std::size_t>(actor)];
+  const bool sure = known != nullptr && known->area_m2 >= kRemnant * context.usual_area_m2;
+  Choice choice{actor, known != nullptr ? scores[static_cast<std::size_t>(actor)] : 0.0F, sure};
+  float best = sure ? std::max(choice.score, context.usual_score) : choice.score;
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    if (static_cast<std::int32_t>(k) == actor || (!sure && components[k].who == Identity::Other)) continue;
+    float score = scores[k];
+    if (sure) {
+      score *= kSomebodyElse;
+    } else if (context.expected != nullptr) {
+      score *= nearness(components[k], *context.expected);
+    }
+    if (score <= best) continue;
+    best = score;
+    choice = {static_cast<std::int32_t>(k), scores[k], true};
+  }
+  return choice;
 }
 
 }  // namespace depthmocap

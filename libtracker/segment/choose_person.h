@@ -15,15 +15,26 @@ bool looksCutOut(const CoarseCloud& cloud, const std::vector<Component>& compone
 
 // What choosing needs to know about the frame.
 struct ChoiceContext {
-  bool cut_out = false;                            // the background is already removed: no test for a person's shape
-  double min_area_cells = 1;                       // smaller components are no person
-  const Eigen::Vector3d* predicted = nullptr;      // camera frame [m]; null = none
+  bool cut_out = false;                     // the background is already removed: no test for a person's shape
+  double min_area_cells = 1;                // smaller components are no person
+  const ExpectedActor* expected = nullptr;  // null = anybody
+  float usual_score = 0;                    // of the actor in the frames before
+  float usual_area_m2 = 0;
   const std::vector<float>* box_shares = nullptr;  // of measureBoxShares; null where cut_out
 };
 
-// Index of the component that is the actor: large in the image and near, shaped like a person, near the prediction.
-// kNoComponent if there is none.
-std::int32_t choosePerson(const std::vector<Component>& components, const SegmentConfig& config,
-                          const ChoiceContext& context);
+// Which component is the actor.
+struct Choice {
+  std::int32_t person = kNoComponent;
+  float score = 0;    // of that one's looks: large in the image and near, shaped like a person
+  bool sure = false;  // no mere remnant of the actor
+};
+
+// Who is known to be the actor stays it, also while hidden in part, unless somebody else looks far more like a person
+// than the actor usually does: then a thing was followed. If nobody is known to be the actor, or a small piece only:
+// the one that looks most like a person near the expected place, but nobody who is known to be somebody else. `scores`
+// receives the looks of each component.
+Choice choosePerson(const std::vector<Component>& components, const SegmentConfig& config, const ChoiceContext& context,
+                    std::vector<float>& scores);
 
 }  // namespace depthmocap

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kGapGrowsFrom_m = 3.0F;
 constexpr float kTopSlice_m = 0.2F;
+constexpr float kKnownShare = 0.2F;        // of a component's cells that must be somebody's for it to be
 constexpr int kMinCellsForThickness = 30;  // smaller pieces are never mistaken for a panel
 
 struct Step {
@@ -32,6 +33,15 @@ std::int32_t ComponentFinder::root(std::int32_t cell) {
   return cell;
 }
 
+// Two roots, unless they are known to belong to different people.
+void ComponentFinder::connect(std::int32_t a, std::int32_t b) {
+  const Identity who_a = who_[static_cast<std::size_t>(a)];
+  const Identity who_b = who_[static_cast<std::size_t>(b)];
+  if (who_a != who_b && who_a != Identity::Unknown && who_b != Identity::Unknown) return;
+  parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  who_[static_cast<std::size_t>(std::min(a, b))] = who_a != Identity::Unknown ? who_a : who_b;
+}
+
 void ComponentFinder::connectCells(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, float gap_m) {
   parent_.resize(cloud.points.size());
   for (int y = 0; y < cloud.height; ++y) {
@@ -48,9 +58,7 @@ void ComponentFinder::connectCells(const CoarseCloud& cloud, const std::vector<s
         if (nx < 0 || ny < 0 || nx >= cloud.width) return;
         const std::size_t j = cloud.index(nx, ny);
         if (parent_[j] == kNoComponent || (cloud.points[j] - p).squaredNorm() > gap * gap) return;
-        const std::int32_t a = root(static_cast<std::int32_t>(i));
-        const std::int32_t b = root(static_cast<std::int32_t>(j));
-        parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        connect(root(static_cast<std::int32_t>(i)), root(static_cast<std::int32_t>(j)));
       };
       for (const Step& step : kNear) tryJoin(step);
       for (const Step& step : kFar) tryJoin(step);
@@ -128,12 +136,29 @@ void ComponentFinder::measureTops(const CoarseCloud& cloud, const Eigen::Vector3
   }
 }
 
+void ComponentFinder::identify(std::span<const Identity> known) {
+  known_cells_.assign(components_.size(), 0);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (labels_[i] == kNoComponent || known[i] == Identity::Unknown) continue;
+    const auto label = static_cast<std::size_t>(labels_[i]);
+    components_[label].who = known[i];
+    ++known_cells_[label];
+  }
+  for (std::size_t k = 0; k < components_.size(); ++k) {
+    Component& c = components_[k];
+    if (static_cast<float>(known_cells_[k]) < kKnownShare * static_cast<float>(c.cells)) c.who = Identity::Unknown;
+  }
+}
+
 void ComponentFinder::find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m,
-                           const Eigen::Vector3f& up) {
+                           const Eigen::Vector3f& up, std::span<const Identity> known) {
+  who_.assign(cloud.points.size(), Identity::Unknown);
+  std::copy(known.begin(), known.end(), who_.begin());
   connectCells(cloud, keep, static_cast<float>(gap_m));
   numberComponents();
   measure(cloud, up);
   measureTops(cloud, up);
+  identify(known);
 }
 
 }  // namespace depthmocap

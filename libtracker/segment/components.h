@@ -1,9 +1,11 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libtracker/segment/coarse_cloud.h"
+#include "libtracker/segment/identity.h"
 
 namespace depthmocap {
 
@@ -22,6 +24,7 @@ struct Component {
   bool touches_border = false;
   bool touches_side = false;  // the left or the right border
   bool touches_top = false;
+  Identity who = Identity::Unknown;  // of a fair share of its cells
 
   [[nodiscard]] float height() const { return top_m - bottom_m; }
   [[nodiscard]] float widthX() const { return high.x() - low.x(); }
@@ -35,8 +38,9 @@ class ComponentFinder {
  public:
   // Neighbouring cells (also across one missing cell) are connected when their points are at most gap_m apart; the gap
   // grows with the depth beyond 3 m as the sensors' depth steps do. Cells with keep[i] == 0 take no part. `up`: unit,
-  // camera frame.
-  void find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m, const Eigen::Vector3f& up);
+  // camera frame. `known` (one a cell, or empty): cells of different identities are never connected.
+  void find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m, const Eigen::Vector3f& up,
+            std::span<const Identity> known = {});
 
   [[nodiscard]] const std::vector<Component>& components() const { return components_; }
   [[nodiscard]] const std::vector<std::int32_t>& labels() const {
@@ -46,11 +50,14 @@ class ComponentFinder {
  private:
   std::int32_t root(std::int32_t cell);
   void connectCells(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, float gap_m);
+  void connect(std::int32_t a, std::int32_t b);
   void numberComponents();
   void measure(const CoarseCloud& cloud, const Eigen::Vector3f& up);
   void measureTops(const CoarseCloud& cloud, const Eigen::Vector3f& up);
+  void identify(std::span<const Identity> known);
 
   std::vector<std::int32_t> parent_;
+  std::vector<Identity> who_;  // of the cells that a root stands for
   std::vector<std::int32_t> labels_;
   std::vector<Component> components_;
   struct CellBox {
@@ -58,6 +65,7 @@ class ComponentFinder {
   };
   std::vector<Eigen::Matrix3d> moments_;
   std::vector<CellBox> boxes_;
+  std::vector<int> known_cells_;
 };
 
 }  // namespace depthmocap

@@ -30,8 +30,9 @@ bool isLarge(const Component& piece) {
   return piece.area_m2 >= kHandArea_m2;
 }
 
-// A piece that stands beside the actor and is large enough to be somebody else.
+// A piece that is known to be somebody else's, or stands beside the actor and is large enough for it.
 bool isOwnPerson(const Component& piece, const Component& body) {
+  if (piece.who != Identity::Unknown) return piece.who == Identity::Other;
   const float overlap = std::min(piece.top_m, body.top_m) - std::max(piece.bottom_m, body.bottom_m);
   return piece.height() > kOwnPersonHeight_m && piece.area_m2 > kOwnPersonArea_m2 && overlap > 0.5F * piece.height();
 }
@@ -60,6 +61,7 @@ struct FragmentJoiner::Search {
   const std::vector<std::int32_t>& labels;
   const Component& body;
   bool cut_out;
+  bool company;
   const std::vector<std::uint8_t>& selected;
 
   // True where the piece's silhouette meets the actor's with the actor in front: the rest of the piece is behind it.
@@ -92,8 +94,12 @@ bool FragmentJoiner::Search::comesOutFromBehind(std::size_t piece) const {
 
 float FragmentJoiner::Search::reachOf(std::size_t piece) const {
   const Component& c = components[piece];
+  if (c.who == Identity::Actor) return kArmReach_m;
+  if (company) return kRoomGap_m;
   if (cut_out) return isLarge(c) ? kLimbGap_m : kArmReach_m;
-  // In a room, what lies low before the body is a thing on the floor, and what stands apart behind it is the room.
+  // In a room, what lies low before the body is a thing on the floor, what stands apart behind it is the room, and what
+  // comes in at the side of the picture is somebody else.
+  if (c.touches_side && !body.touches_side) return kRoomGap_m;
   if (!isLarge(c) && c.mean.z() < body.mean.z() && isAboveTheFloor(c, body)) return kArmReach_m;
   return couldBeHiddenLimb(c, body) && comesOutFromBehind(piece) ? kHiddenLimbGap_m : kRoomGap_m;
 }
@@ -135,13 +141,13 @@ bool FragmentJoiner::belongs(const Search& search, std::size_t piece) const {
 }
 
 void FragmentJoiner::join(const CoarseCloud& cloud, const ComponentFinder& found, std::int32_t person, bool cut_out,
-                          std::vector<std::uint8_t>& selected) {
+                          bool company, std::vector<std::uint8_t>& selected) {
   const std::vector<Component>& components = found.components();
   const Component& body = components[static_cast<std::size_t>(person)];
   selected.assign(components.size(), 0);
   selected[static_cast<std::size_t>(person)] = 1;
   samplePoints(cloud, found);
-  const Search search{cloud, components, found.labels(), body, cut_out, selected};
+  const Search search{cloud, components, found.labels(), body, cut_out, company, selected};
   for (const bool large : {true, false}) {  // first limbs and trunk; what large is left then belongs to others
     for (bool grown = true; grown;) {       // a joined forearm may bring in the hand
       grown = false;

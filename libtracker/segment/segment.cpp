@@ -1,5 +1,8 @@
 #include "libtracker/segment/segment.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "libtracker/core/check.h"
@@ -7,6 +10,8 @@
 #include "libtracker/segment/choose_person.h"
 #include "libtracker/segment/coarse_cloud.h"
 #include "libtracker/segment/components.h"
+#include "libtracker/segment/hidden_part.h"
+#include "libtracker/segment/identity.h"
 #include "libtracker/segment/join_fragments.h"
 #include "libtracker/segment/planes.h"
 #include "libtracker/segment/refine_mask.h"
@@ -18,6 +23,14 @@ namespace {
 
 constexpr double kFloorMovedShare = 0.6;  // of the floor's cells left on it: the camera moved, look again
 constexpr double kReferencePixels = 320.0 * 240.0;
+constexpr float kUsualRate = 0.02F;     // a frame; how fast the actor's usual looks follow the present ones
+constexpr double kPlain = 0.6;          // of the actor in view: enough to say that another piece is not the actor's
+constexpr double kSurelyThere_s = 1.5;  // a hidden actor is about where expected for so long
+constexpr float kTrunk_m = 0.35F;       // horizontally around the expected place
+constexpr float kCompany_m = 1.0F;      // from the actor,
+constexpr int kCompanyFrames = 30;      // and how long it is reckoned with after it was last seen there
+constexpr float kCompanyLooks = 0.1F;   // of the actor's usual ones
+constexpr float kLargeThing_m2 = 0.3F;  // in view; it may be what somebody leans on
 
 void require(bool holds, const char* field, double value, const char* rule) {
   if (!holds)
@@ -44,6 +57,14 @@ struct Segmenter::Impl {
   std::vector<std::uint8_t> selected;
   std::vector<Eigen::Vector3f> normals;
   std::vector<float> box_shares;
+  std::vector<float> scores;
+  IdentityMemory memory;
+  std::vector<Identity> known;
+  std::vector<Identity> identities;
+  float usual_score = 0;     // of the actor's looks
+  bool actor_plain = false;  // most of the actor was in view in the frame before
+  int company_frames = 0;    // to go until nobody else is reckoned with
+  float usual_area_m2 = 0;   // in view of the actor, when nothing hides any of it; 0: not known
   ComponentFinder finder;
   FragmentJoiner joiner;
   PlaneFinder plane_finder;
@@ -51,8 +72,16 @@ struct Segmenter::Impl {
   double floor_share_when_found = 0;
   int frames_since_planes = -1;  // -1: not looked for yet
 
+  [[nodiscard]] Eigen::Vector3f upwards() const {
+    return planes.floor ? Eigen::Vector3f(planes.floor->head<3>()) : Eigen::Vector3f(0, -1, 0);
+  }
   void updatePlanes();
   void removeRoom();
+  Choice chooseActor(const DepthImage& depth, const ExpectedActor* expected, bool cut_out);
+  void recallPeople(const ExpectedActor* expected);
+  void rememberPeople(const Choice& choice);
+  void noteCompany(const Choice& choice);
+  double visibleShare();
   void summarise(const DepthImage& depth, const CameraModel& camera, Segmentation& out) const;
 };
 
@@ -67,6 +96,8 @@ Segmenter& Segmenter::operator=(Segmenter&&) noexcept = default;
 void Segmenter::reset() {
   impl_->planes = {};
   impl_->frames_since_planes = -1;
+  impl_->memory.forget();
+  impl_->company_frames = 0;
 }
 
 // The planes of a still room do not move: look for them now and then, and when the floor is no longer where it was.
@@ -84,10 +115,79 @@ void Segmenter::Impl::updatePlanes() {
 void Segmenter::Impl::removeRoom() {
   updatePlanes();
   keepOffPlanes(cloud, planes, config.floor_distance_m, keep);
-  const Eigen::Vector3f up = planes.floor ? Eigen::Vector3f(planes.floor->head<3>()) : Eigen::Vector3f(0, -1, 0);
-  finder.find(cloud, keep, config.cluster_gap_m, up);
+  const Eigen::Vector3f up = upwards();
+  finder.find(cloud, keep, config.cluster_gap_m, up, known);
   computeNormals(cloud, keep, normals);
   measureBoxShares(normals, finder, up, box_shares);
+}
+
+// Who is who in the present frame. What appears anew where the hidden actor is expected is the actor, also where it
+// touches somebody else.
+void Segmenter::Impl::recallPeople(const ExpectedActor* expected) {
+  if (expected == nullptr || std::isinf(expected->unseen_s)) memory.forget();
+  memory.recall(cloud, known);
+  if (expected == nullptr || actor_plain || expected->unseen_s > kSurelyThere_s) return;
+  const Eigen::Vector3f up = upwards();
+  const Eigen::Vector3f trunk = expected->p_camera.cast<float>();
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i] != Identity::Unknown || cloud.points[i].z() <= 0) continue;
+    const Eigen::Vector3f d = cloud.points[i] - trunk;
+    if ((d - up.dot(d) * up).squaredNorm() < kTrunk_m * kTrunk_m) known[i] = Identity::Actor;
+  }
+}
+
+Choice Segmenter::Impl::chooseActor(const DepthImage& depth, const ExpectedActor* expected, bool cut_out) {
+  const double image_scale = static_cast<double>(depth.data.size()) / kReferencePixels;
+  const ChoiceContext context{cut_out,       config.min_pixels * image_scale / (cloud.stride * cloud.stride),
+                              expected,      usual_score,
+                              usual_area_m2, cut_out ? nullptr : &box_shares};
+  const Choice choice = choosePerson(finder.components(), config, context, scores);
+  if (choice.person == kNoComponent) return choice;
+  if (expected == nullptr) usual_area_m2 = 0;
+  const bool is_known = finder.components()[static_cast<std::size_t>(choice.person)].who == Identity::Actor;
+  usual_score = is_known ? usual_score + kUsualRate * (choice.score - usual_score) : choice.score;
+  return choice;
+}
+
+double Segmenter::Impl::visibleShare() {
+  float area = 0;
+  for (std::size_t k = 0; k < selected.size(); ++k) area += selected[k] != 0 ? finder.components()[k].area_m2 : 0.0F;
+  const bool hidden = isPartlyHidden(cloud, keep, finder.labels(), selected);
+  if (usual_area_m2 <= 0) {
+    usual_area_m2 = area;
+  } else if (!hidden && area > 0) {
+    usual_area_m2 += kUsualRate * (area - usual_area_m2);
+  }
+  return hidden && area > 0 ? std::min(1.0, static_cast<double>(area / usual_area_m2)) : 1.0;
+}
+
+// Whoever could have been chosen and was not is somebody else from now on, as are things that people lean on; but not
+// while the actor is hidden, who may be just that one. A piece that was joined by its place alone may be the first of
+// somebody who comes: it stays unknown.
+void Segmenter::Impl::rememberPeople(const Choice& choice) {
+  const std::vector<Component>& components = finder.components();
+  identities.assign(components.size(), Identity::Unknown);
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    const Component& c = components[k];
+    const bool is_other = c.who == Identity::Other || (actor_plain && (scores[k] > 0 || c.area_m2 > kLargeThing_m2));
+    if (static_cast<std::int32_t>(k) == choice.person || (selected[k] != 0 && c.who == Identity::Actor)) {
+      identities[k] = Identity::Actor;
+    } else if (selected[k] == 0 && is_other && c.who != Identity::Actor) {
+      identities[k] = Identity::Other;
+    }
+  }
+  memory.remember(cloud, finder.labels(), identities);
+}
+
+void Segmenter::Impl::noteCompany(const Choice& choice) {
+  company_frames = std::max(0, company_frames - 1);
+  if (choice.person == kNoComponent) return;
+  const std::vector<Component>& components = finder.components();
+  const Eigen::Vector3f actor = components[static_cast<std::size_t>(choice.person)].mean;
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    const bool is_somebody = identities[k] == Identity::Other && scores[k] > kCompanyLooks * usual_score;
+    if (is_somebody && (components[k].mean - actor).norm() < kCompany_m) company_frames = kCompanyFrames;
+  }
 }
 
 void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& camera, Segmentation& out) const {
@@ -103,8 +203,8 @@ void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& came
   if (out.pixel_count > 0) out.centroid_camera = sum / out.pixel_count;
 }
 
-void Segmenter::segment(const DepthImage& depth, const CameraModel& camera,
-                        const Eigen::Vector3d* predicted_centroid_camera, Segmentation& out) {
+void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, const ExpectedActor* expected,
+                        Segmentation& out) {
   DMC_CHECK(depth.width == camera.width && depth.height == camera.height && !depth.empty());
   Impl& s = *impl_;
   out.pixel_count = 0;
@@ -113,17 +213,20 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera,
   out.floor_camera.reset();
 
   buildCoarseCloud(depth, camera, s.config.min_depth_m, s.config.max_depth_m, s.cloud);
+  s.recallPeople(expected);
   s.keep.assign(s.cloud.points.size(), 1);
-  s.finder.find(s.cloud, s.keep, s.config.cluster_gap_m, Eigen::Vector3f(0, -1, 0));
+  s.finder.find(s.cloud, s.keep, s.config.cluster_gap_m, Eigen::Vector3f(0, -1, 0), s.known);
   const bool cut_out = looksCutOut(s.cloud, s.finder.components());
   if (!cut_out) s.removeRoom();
 
-  const double image_scale = static_cast<double>(depth.data.size()) / kReferencePixels;
-  const ChoiceContext context{cut_out, s.config.min_pixels * image_scale / (s.cloud.stride * s.cloud.stride),
-                              predicted_centroid_camera, cut_out ? nullptr : &s.box_shares};
-  const std::int32_t person = choosePerson(s.finder.components(), s.config, context);
+  const Choice choice = s.chooseActor(depth, expected, cut_out);
   s.selected.assign(s.finder.components().size(), 0);
-  if (person != kNoComponent) s.joiner.join(s.cloud, s.finder, person, cut_out, s.selected);
+  if (choice.person != kNoComponent)
+    s.joiner.join(s.cloud, s.finder, choice.person, cut_out, s.company_frames > 0, s.selected);
+  out.visible_share = s.visibleShare();
+  s.actor_plain = choice.sure && out.visible_share >= kPlain;
+  s.rememberPeople(choice);
+  s.noteCompany(choice);
 
   RefineLimits limits{
       s.config.min_depth_m, s.config.max_depth_m, s.config.cluster_gap_m, s.config.floor_distance_m, {}};

@@ -21,10 +21,17 @@ struct SegmentConfig {
   void validate() const;
 };
 
+// Where the actor is expected, who is known from the frames before or was pointed at.
+struct ExpectedActor {
+  Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  // [m] middle of the trunk
+  double unseen_s = 0;  // [s] (>= 0) since the actor was last seen; infinite: has not been seen, somebody near is meant
+};
+
 struct Segmentation {
   MaskImage mask;       // 1 on the actor; empty actor = all 0
   int pixel_count = 0;  // [px] in the mask
   bool touches_border = false;
+  double visible_share = 1;  // (0, 1] of what is usually in view; below 1 where something nearer covers a part
   Eigen::Vector3d centroid_camera = Eigen::Vector3d::Zero();  // [m]
   std::optional<Eigen::Vector4d> floor_camera;  // plane n.p + d = 0, |n| = 1, n away from the floor (up); if seen
   double floor_area_m2 = 0;                     // of it in view, when it was last looked for
@@ -32,9 +39,11 @@ struct Segmentation {
 
 // Finds the actor's pixels. A recording whose background is already removed is recognised (see looksCutOut) and keeps
 // all of one person; otherwise floor and walls (RANSAC planes, PCL) are removed, what is left is clustered, and the
-// cluster most like a person, or nearest to the prediction, is taken. Detached pieces that fit (a hand before the body,
-// a leg behind an arm) join it. Floor and walls are kept from frame to frame: one object per recording, frames in
-// order; the result depends on nothing else. The camera is upright within 25 degrees. Not thread-safe.
+// cluster most like a person is taken. From then on that one is followed: who is the actor and who is not is carried
+// from frame to frame, so that people who touch stay apart, and nobody else is taken while the actor is hidden; then
+// somebody who appears where the actor is expected is taken for the actor. Detached pieces that fit (a hand before the
+// body, a leg behind an arm) join the actor. Floor and walls are kept from frame to frame: one object per recording,
+// frames in order; the result depends on nothing else. The camera is upright within 30 degrees. Not thread-safe.
 class Segmenter {
  public:
   // Throws Error for an invalid config.
@@ -43,11 +52,10 @@ class Segmenter {
   Segmenter(Segmenter&&) noexcept;
   Segmenter& operator=(Segmenter&&) noexcept;
 
-  // `depth` has the camera's size. `predicted_centroid_camera` [m] (null = none) says where the actor is expected.
-  // Reuses the memory of `out`.
-  void segment(const DepthImage& depth, const CameraModel& camera, const Eigen::Vector3d* predicted_centroid_camera,
-               Segmentation& out);
-  // Forgets floor and walls, as for a new recording.
+  // `depth` has the camera's size. `expected` null: anybody may be the actor, and who was who is forgotten. Reuses the
+  // memory of `out`.
+  void segment(const DepthImage& depth, const CameraModel& camera, const ExpectedActor* expected, Segmentation& out);
+  // Forgets everything, as for a new recording.
   void reset();
 
  private:

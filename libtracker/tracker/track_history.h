@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "libtracker/core/track_state.h"
 #include "libtracker/skeleton/dof.h"
 
@@ -16,6 +18,11 @@ class TrackHistory {
   // Constant-velocity guess for a frame at `time_s`.
   [[nodiscard]] Pose predicted(double time_s) const { return 2.0 * q_prev_ - prev2(time_s); }
 
+  // How long before `time_s` the actor was last seen [s]; infinite if never.
+  [[nodiscard]] double unseen(double time_s) const;
+  // How far the actor would have walked on since then [m], world.
+  [[nodiscard]] Eigen::Vector3d walkedOn(double time_s) const;
+
   // A believed pose; `fresh` forgets the velocity (first pose, pose of a global search).
   void accept(const Pose& q, double time_s, bool fresh);
   // The world is another one: p_new = R_new_before * p_before. The velocity is forgotten: the camera has moved.
@@ -26,9 +33,10 @@ class TrackHistory {
  private:
   TrackState state_ = TrackState::Lost;
   Pose q_prev_ = Pose::Zero();
-  Pose velocity_ = Pose::Zero();  // per second
-  double time_s_ = 0;             // of q_prev
-  double evidence_time_s_ = 0;    // of the last accepted pose
+  Pose velocity_ = Pose::Zero();                                       // per second
+  double time_s_ = 0;                                                  // of q_prev
+  double evidence_time_s_ = -std::numeric_limits<double>::infinity();  // of the last accepted pose
+  Eigen::Vector3d walk_ = Eigen::Vector3d::Zero();                     // [m/s] steadied velocity of the root
 };
 
 }  // namespace depthmocap

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libtracker/markers/find_markers.h"
 #include "libtracker/posedb/pose_search.h"
@@ -88,10 +89,7 @@ struct Tracker::Stages {
   void finish();
   [[nodiscard]] double searchScale() const { return statureOf(size.actor().skeleton.lengths) / search_stature_m; }
   [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config.policy.max_rms_m; }
-  [[nodiscard]] const Eigen::Vector3d* expectedCentroid() const {
-    if (predicted) return &predicted_centroid_camera;
-    return wanted_camera ? &*wanted_camera : nullptr;
-  }
+  void expectActor();
   double observedScale(const Pose& q);
 
   const std::shared_ptr<const TrackerModels> models;
@@ -114,7 +112,8 @@ struct Tracker::Stages {
   GlobalSearch global;
   DenseRefinement dense;
 
-  std::optional<Eigen::Vector3d> wanted_camera;  // where to look for somebody, once
+  std::optional<Eigen::Vector3d> wanted_camera;            // where to look for somebody, once
+  Eigen::Vector3d trunk_camera = Eigen::Vector3d::Zero();  // where it was last expected
 
   // Of the present frame.
   KnownEvidence known;
@@ -124,7 +123,7 @@ struct Tracker::Stages {
   MarkerSet predicted_camera;
   JointPositions joints_predicted_camera;
   ClassifyConfig classify_config = config.classify;  // with what is known of the facing
-  Eigen::Vector3d predicted_centroid_camera = Eigen::Vector3d::Zero();
+  std::optional<ExpectedActor> expected_actor;
   Segmentation segmentation;
   ClassifyMemory classify_memory;
   ClassifiedPixels pixels;
@@ -147,6 +146,7 @@ void Tracker::Stages::begin(const DepthFrame& frame, const KnownEvidence& given)
   out.solver_iterations = 0;
   out.rms_marker_m = 0;
   predict();
+  expectActor();
 }
 
 // Where the markers are expected, from the poses before.
@@ -157,8 +157,24 @@ void Tracker::Stages::predict() {
   q_predicted = history.predicted(out.time_s);
   if (config.policy.expect_sides) classify_config.facing_prior = expectedFacing(q_predicted);
   predicted_camera = rotated(R_world_camera.transpose(), modelMarkers(size.actor(), q_predicted, fk));
-  predicted_centroid_camera = predicted_camera.position.col(partIndex(Part::Torso));
+  trunk_camera = predicted_camera.position.col(partIndex(Part::Torso));
   joints_predicted_camera = R_world_camera.transpose() * jointPositions(size.actor().skeleton, q_predicted);
+}
+
+// A lost actor is waited for; then the next one may be anybody, of any size.
+void Tracker::Stages::expectActor() {
+  expected_actor.reset();
+  const double unseen_s = history.unseen(out.time_s);
+  if (wanted_camera) {
+    expected_actor = {*wanted_camera, std::numeric_limits<double>::infinity()};
+  } else if (history.state() == TrackState::Tracking) {
+    expected_actor = {trunk_camera, unseen_s};
+  } else if (unseen_s <= config.policy.absent_s) {
+    expected_actor = {trunk_camera + R_world_camera.transpose() * history.walkedOn(out.time_s), unseen_s};
+  } else {
+    history = {};
+    size = first_size;
+  }
 }
 
 // The floor says which way is up; where it says so anew, the poses before are turned with the world.
@@ -200,7 +216,8 @@ void Tracker::Stages::buildPrior() {
 
 void Tracker::Stages::solve(const DepthImage& depth) {
   dense.observe(pixels, depth, segmentation.mask, camera, R_world_camera);
-  const bool enough = markers_world.seenCount() >= config.policy.min_markers;
+  const bool enough =
+      markers_world.seenCount() >= config.policy.min_markers && segmentation.visible_share >= config.policy.min_visible;
   const bool found = enough && (predicted ? solveNext(depth) : solveFirst(depth));
   if (found) wanted_camera.reset();
   if (!found) history.miss(out.time_s, config.policy.coast_s);
@@ -318,7 +335,7 @@ bool Tracker::Stages::solveNext(const DepthImage& depth) {
 // How much larger the actor is than the skeleton in use: by the height of the whole person where it is in view, else by
 // the markers; 1 if neither can tell.
 double Tracker::Stages::observedScale(const Pose& q) {
-  if (!segmentation.touches_border) {
+  if (!segmentation.touches_border && segmentation.visible_share == 1) {
     const double ratio = dense.extentRatio(models->surface, size.actor(), q);
     if (ratio > 0) return ratio;
   }
@@ -378,7 +395,7 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame, const KnownEvidenc
   StageClock clock(s.out.ms);
   s.begin(frame, known);
 
-  s.segmenter.segment(frame.depth, s.camera, s.expectedCentroid(), s.segmentation);
+  s.segmenter.segment(frame.depth, s.camera, s.expected_actor ? &*s.expected_actor : nullptr, s.segmentation);
   s.levelWorld();
   clock.lap(&StageTimes::segment);
 

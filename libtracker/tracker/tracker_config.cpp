@@ -33,10 +33,12 @@ TrackerConfig paperConfig() {
 
 void TrackPolicy::validate() const {
   require(min_markers >= 1 && min_markers <= kPartCount, "min_markers must be from 1 to 15");
+  require(min_visible >= 0 && min_visible <= 1, "min_visible must lie between 0 and 1");
   require(max_rms_m > 0, "max_rms_m must be positive");
   require(suspect_rms_m > 0, "suspect_rms_m must be positive");
   require(switch_gain > 0 && switch_gain < 1, "switch_gain must lie between 0 and 1");
   require(coast_s >= 0, "coast_s must not be negative");
+  require(absent_s >= coast_s, "absent_s must not be less than coast_s");
   require(start_poses >= 1, "start_poses must be at least 1");
   require(dense_rounds >= 0, "dense_rounds must not be negative");
   require(assumed_stature_m >= 1.0 && assumed_stature_m <= 2.2, "assumed_stature_m must lie between 1.0 and 2.2");

@@ -13,10 +13,12 @@ namespace depthmocap {
 // When a pose is believed, carried on, given up and looked for again.
 struct TrackPolicy {
   int min_markers = 5;           // (1 .. 15) fewer seen markers are not enough evidence for a pose
+  double min_visible = 0.45;     // [0 .. 1] of the actor, where something hides the rest; less is not enough either
   double max_rms_m = 0.15;       // [m] a worse fit of the seen markers is not believed
   double suspect_rms_m = 0.065;  // [m] above it a global search competes with the tracked pose
   double switch_gain = 0.6;      // (0 .. 1) the global pose wins if its energy is below this share of the tracked one's
   double coast_s = 0.4;          // [s] a pose is carried on without evidence, then the actor is lost
+  double absent_s = 2.5;         // [s] (>= coast_s) the lost actor is waited for, then whoever is there is tracked
   int start_poses = 6;           // (>= 1) database poses a global search solves from
   int dense_rounds = 3;          // (>= 0) of matching depth with the body's surface; 0 = markers only, the paper
   bool expect_sides = true;      // the pose before tells left from right in the classifier's answer; false: the paper

@@ -22,10 +22,10 @@ void addRoom(TestScene& scene) {
   scene.addPlane(kRoom, {1, 0, 0, 2.0});
 }
 
-Segmentation segmentOnce(const TestScene& scene, const Eigen::Vector3d* predicted = nullptr) {
+Segmentation segmentOnce(const TestScene& scene) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(scene.render(), scene.camera, predicted, result);
+  segmenter.segment(scene.render(), scene.camera, nullptr, result);
   return result;
 }
 
@@ -104,10 +104,10 @@ TEST(Segment, PredictionSelectsTheOtherPerson) {
   scene.addPerson(kOther, kFeet + Eigen::Vector3d(0.8, 0, 0.9));
   Image<int> objects;
   const DepthImage depth = scene.render(&objects);
-  const Eigen::Vector3d predicted = kFeet + Eigen::Vector3d(0.75, -0.9, 0.8);
+  const ExpectedActor expected{kFeet + Eigen::Vector3d(0.75, -0.9, 0.8)};
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, &predicted, result);
+  segmenter.segment(depth, scene.camera, &expected, result);
   EXPECT_GT(overlap(result.mask, objects, kOther), 0.99);
 }
 

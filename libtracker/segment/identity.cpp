@@ -1,0 +1,56 @@
+#include "libtracker/segment/identity.h"
+
+#include <algorithm>
+
+namespace depthmocap {
+namespace {
+
+constexpr float kSameSurface_m = 0.02F;  // this near, at the same cell, no other surface needs to be looked for
+constexpr float kReach_m = 0.08F;        // from frame to frame; a fast hand's cells may stay unknown
+constexpr int kReach = 5;                // [cells]
+
+}  // namespace
+
+Identity IdentityMemory::nearest(const CoarseCloud& cloud, int x, int y) const {
+  const Eigen::Vector3f& p = cloud.points[cloud.index(x, y)];
+  const auto distance2 = [&](std::size_t i) { return (points_[i] - p).squaredNorm(); };
+  const std::size_t same = cloud.index(x, y);
+  if (identities_[same] != Identity::Unknown && distance2(same) < kSameSurface_m * kSameSurface_m) {
+    return identities_[same];
+  }
+  Identity answer = Identity::Unknown;
+  float best = kReach_m * kReach_m;
+  for (int ny = std::max(0, y - kReach); ny <= std::min(cloud.height - 1, y + kReach); ++ny) {
+    for (int nx = std::max(0, x - kReach); nx <= std::min(cloud.width - 1, x + kReach); ++nx) {
+      const std::size_t i = cloud.index(nx, ny);
+      if (identities_[i] == Identity::Unknown) continue;
+      const float d = distance2(i);
+      if (d >= best) continue;
+      best = d;
+      answer = identities_[i];
+    }
+  }
+  return answer;
+}
+
+void IdentityMemory::recall(const CoarseCloud& cloud, std::vector<Identity>& known) const {
+  known.assign(cloud.points.size(), Identity::Unknown);
+  if (identities_.size() != cloud.points.size()) return;
+  for (int y = 0; y < cloud.height; ++y) {
+    for (int x = 0; x < cloud.width; ++x) {
+      const std::size_t i = cloud.index(x, y);
+      if (cloud.points[i].z() > 0) known[i] = nearest(cloud, x, y);
+    }
+  }
+}
+
+void IdentityMemory::remember(const CoarseCloud& cloud, const std::vector<std::int32_t>& labels,
+                              const std::vector<Identity>& identities) {
+  points_ = cloud.points;
+  identities_.assign(labels.size(), Identity::Unknown);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] >= 0) identities_[i] = identities[static_cast<std::size_t>(labels[i])];
+  }
+}
+
+}  // namespace depthmocap
