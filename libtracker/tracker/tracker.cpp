@@ -34,9 +34,13 @@ constexpr int kDisputePatience = 3;      // [frames] before other sides are trie
 constexpr int kDisputePeriod = 15;       // [frames] between such trials
 constexpr int kFirstSizeRounds = 3;      // solve, rescale, solve again: the first size converges in this many rounds
 
-TrackerConfig withThreads(TrackerConfig config) {
+// The config as the stages take it. The stride is that of a usual focal length: a coarser image is looked at more
+// closely.
+TrackerConfig forCamera(TrackerConfig config, const CameraModel& camera) {
   config.validate();
   config.classify.threads = config.threads;
+  config.classify.stride =
+      std::max(1, static_cast<int>(std::lround(config.classify.stride * camera.fx / kReferenceFocal_px)));
   return config;
 }
 
@@ -48,7 +52,7 @@ struct Tracker::Stages {
          const std::optional<ActorModel>& given)
       : models(std::move(m)),
         camera(c),
-        config(withThreads(cfg)),
+        config(forCamera(cfg, c)),
         first_size(given ? *given : averageActor(averageBoneLengths(cfg.policy.assumed_stature_m)), given.has_value(),
                    cfg.policy.adapt_s),
         size(first_size),
