@@ -8,16 +8,7 @@
 namespace depthmocap {
 namespace {
 
-void countImage(const Forest& forest, const TrainingImage& image, int stride, ConfusionMatrix& confusion) {
-  MaskImage mask(image.depth.width, image.depth.height, 0);
-  for (std::size_t i = 0; i < mask.data.size(); ++i) mask.data[i] = image.depth.data[i] > 0.0F ? 1 : 0;
-  ClassifiedPixels classified;
-  classify(forest, image.depth, mask, image.focal_px, {.stride = stride}, classified);
-  if (image.facing && !classified.pixels.empty()) {
-    const auto& shares = classified.facing;
-    const auto found = std::max_element(shares.begin(), shares.end()) - shares.begin();
-    ++confusion.facing[static_cast<std::size_t>(*image.facing)][static_cast<std::size_t>(found)];
-  }
+void countPixels(const TrainingImage& image, const ClassifiedPixels& classified, ConfusionMatrix& confusion) {
   for (const auto& pixel : classified.pixels) {
     const std::uint8_t label = image.labels.at(pixel.x, pixel.y);
     if (label == 0) continue;
@@ -25,14 +16,31 @@ void countImage(const Forest& forest, const TrainingImage& image, int stride, Co
   }
 }
 
+void countImage(const Forest& forest, const TrainingImage& image, int stride, ForestAccuracy& accuracy) {
+  MaskImage mask(image.depth.width, image.depth.height, 0);
+  for (std::size_t i = 0; i < mask.data.size(); ++i) mask.data[i] = image.depth.data[i] > 0.0F ? 1 : 0;
+  ClassifyMemory memory;
+  ClassifiedPixels classified;
+  classify(forest, image.depth, mask, image.focal_px, {.stride = stride}, memory, classified);
+  countPixels(image, classified, accuracy.all);
+  if (!image.facing || classified.pixels.empty()) return;
+  const auto truth = static_cast<std::size_t>(*image.facing);
+  const auto& shares = classified.facing;
+  const auto found = std::max_element(shares.begin(), shares.end()) - shares.begin();
+  ++accuracy.facing[truth][static_cast<std::size_t>(found)];
+  countPixels(image, classified, accuracy.from[truth]);
+  if (forest.facings == 1) return;
+  FacingShares told{};
+  told[truth] = 1;
+  assumeFacing(told, 1, memory, classified);
+  countPixels(image, classified, accuracy.given_facing);
+}
+
 }  // namespace
 
 void ConfusionMatrix::add(const ConfusionMatrix& other) {
   for (std::size_t row = 0; row < count.size(); ++row) {
     for (std::size_t column = 0; column < count.size(); ++column) count[row][column] += other.count[row][column];
-  }
-  for (std::size_t row = 0; row < facing.size(); ++row) {
-    for (std::size_t column = 0; column < facing.size(); ++column) facing[row][column] += other.facing[row][column];
   }
 }
 
@@ -42,16 +50,6 @@ std::uint64_t ConfusionMatrix::total() const {
     for (const std::uint64_t n : row) sum += n;
   }
   return sum;
-}
-
-double ConfusionMatrix::facingAccuracy() const {
-  std::uint64_t all = 0;
-  std::uint64_t right = 0;
-  for (std::size_t row = 0; row < facing.size(); ++row) {
-    right += facing[row][row];
-    for (const std::uint64_t n : facing[row]) all += n;
-  }
-  return all == 0 ? 0.0 : static_cast<double>(right) / static_cast<double>(all);
 }
 
 double ConfusionMatrix::accuracy() const {
@@ -81,9 +79,28 @@ double ConfusionMatrix::meanAccuracy() const {
   return seen == 0 ? 0.0 : sum / seen;
 }
 
-std::vector<ConfusionMatrix> measureAccuracy(std::span<const Forest> forests, TrainingImageSource& source, int stride,
-                                             int threads, const std::function<void(double)>& progress) {
-  std::vector<ConfusionMatrix> of_image(source.count() * forests.size());
+void ForestAccuracy::add(const ForestAccuracy& other) {
+  all.add(other.all);
+  given_facing.add(other.given_facing);
+  for (std::size_t row = 0; row < facing.size(); ++row) {
+    from[row].add(other.from[row]);
+    for (std::size_t column = 0; column < facing.size(); ++column) facing[row][column] += other.facing[row][column];
+  }
+}
+
+double ForestAccuracy::facingAccuracy() const {
+  std::uint64_t images = 0;
+  std::uint64_t right = 0;
+  for (std::size_t row = 0; row < facing.size(); ++row) {
+    right += facing[row][row];
+    for (const std::uint64_t n : facing[row]) images += n;
+  }
+  return images == 0 ? 0.0 : static_cast<double>(right) / static_cast<double>(images);
+}
+
+std::vector<ForestAccuracy> measureAccuracy(std::span<const Forest> forests, TrainingImageSource& source, int stride,
+                                            int threads, const std::function<void(double)>& progress) {
+  std::vector<ForestAccuracy> of_image(source.count() * forests.size());
   std::atomic<std::size_t> done = 0;
   parallelFor(threads, source.count(), [&](std::size_t i) {
     TrainingImage image;
@@ -92,7 +109,7 @@ std::vector<ConfusionMatrix> measureAccuracy(std::span<const Forest> forests, Tr
       countImage(forests[f], image, stride, of_image[i * forests.size() + f]);
     progress(static_cast<double>(++done) / static_cast<double>(source.count()));
   });
-  std::vector<ConfusionMatrix> sums(forests.size());
+  std::vector<ForestAccuracy> sums(forests.size());
   for (std::size_t k = 0; k < of_image.size(); ++k) sums[k % forests.size()].add(of_image[k]);
   return sums;
 }

@@ -21,11 +21,11 @@ std::string fingerprint(const TrainingImageSource& source, const ForestTrainingO
   const FeatureOptions& f = o.tree.features;
   return fmt::format(
       "{}; {} images, {} pixels, depth {}, {} offsets of {} .. {}, {} at the center, {} candidates, leaves >= {}, "
-      "nodes <= {}, "
+      "nodes <= {}, facing weight {}, "
       "{} samples a node, {} a batch, {} trees, seed {}",
       source.description(), source.count(), o.tree.pixels_per_image, o.tree.depth, f.offsets, f.min_offset,
-      f.max_offset, f.center_share, o.tree.candidates, o.tree.min_leaf, o.tree.max_nodes, o.tree.node_samples,
-      o.tree.batch_samples, o.trees, o.seed);
+      f.max_offset, f.center_share, o.tree.candidates, o.tree.min_leaf, o.tree.max_nodes, o.tree.facing_weight,
+      o.tree.node_samples, o.tree.batch_samples, o.trees, o.seed);
 }
 
 }  // namespace
@@ -37,8 +37,8 @@ void ForestTrainingOptions::validate() const {
   if (resume && checkpoint.empty()) throw Error("nothing to resume from", "resume", "name the checkpoint");
 }
 
-std::vector<TrainedTree> trainForest(TrainingImageSource& source, const ForestTrainingOptions& options,
-                                     const TrainingProgress& progress) {
+std::vector<TrainedTree> trainForest(TrainingImageSource& source, Communicator& ranks,
+                                     const ForestTrainingOptions& options, const TrainingProgress& progress) {
   options.validate();
   if (source.count() == 0) throw Error("no training images", source.description(), "ask for at least one image");
   const std::string identity = fingerprint(source, options);
@@ -46,16 +46,17 @@ std::vector<TrainedTree> trainForest(TrainingImageSource& source, const ForestTr
   if (options.resume) trees = loadCheckpoint(options.checkpoint, identity);
   trees.resize(static_cast<std::size_t>(options.trees));
 
-  ImageStore images(source, options.seed, options.memory_bytes, options.threads,
+  ImageStore images(source, {ranks.rank(), ranks.size()}, options.seed, options.memory_bytes, options.threads,
                     [&](double done) { progress("rendering", kRenderShare * done); });
   for (std::size_t t = 0; t < trees.size(); ++t) {
     const std::string stage = fmt::format("tree {} of {}", t + 1, trees.size());
     const auto finished_level = [&](int level) {
-      if (!options.checkpoint.empty()) saveCheckpoint(options.checkpoint, identity, trees);
+      if (!options.checkpoint.empty() && ranks.rank() == 0) saveCheckpoint(options.checkpoint, identity, trees);
       const double share = (static_cast<double>(t) + (level + 1.0) / options.tree.depth) / options.trees;
       progress(stage, kRenderShare + (1 - kRenderShare) * share);
     };
-    growTree(images, options.tree, options.seed + (t + 1) * kTreeSeedStep, options.threads, trees[t], finished_level);
+    growTree(images, ranks, options.tree, options.seed + (t + 1) * kTreeSeedStep, options.threads, trees[t],
+             finished_level);
   }
   return trees;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "forest/train/communicator.h"
 #include "forest/train/trained_tree.h"
 #include "forest/train/training_image.h"
 #include "forest/train/tree_options.h"
@@ -29,11 +30,12 @@ struct ForestTrainingOptions {
 // What is being done ("rendering", "tree 1 of 3") and how much of all work is done, in [0, 1]. Called from any thread.
 using TrainingProgress = std::function<void(const std::string& stage, double done)>;
 
-// Trains the trees one after the other. The same trees for any number of threads, and whether interrupted or not.
+// Trains the trees one after the other, on every rank the same ones. Each rank has its share of the images; the first
+// writes the checkpoint. The same trees for any number of ranks and threads, and whether interrupted or not.
 // Throws Error for options, the source's failures, and a checkpoint that cannot be written or belongs to another
 // training.
-std::vector<TrainedTree> trainForest(TrainingImageSource& source, const ForestTrainingOptions& options,
-                                     const TrainingProgress& progress);
+std::vector<TrainedTree> trainForest(TrainingImageSource& source, Communicator& ranks,
+                                     const ForestTrainingOptions& options, const TrainingProgress& progress);
 
 // How a trained forest is made into one to use.
 struct FinishOptions {

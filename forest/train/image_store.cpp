@@ -19,6 +19,10 @@ std::uint16_t millimetres(float depth_m) {
                         : kBackgroundDepth_mm;
 }
 
+std::size_t firstOf(const ImageShare& share, std::size_t images) {
+  return images * static_cast<std::size_t>(share.rank) / static_cast<std::size_t>(share.ranks);
+}
+
 }  // namespace
 
 void cropTrainingImage(const TrainingImage& image, ImageCrop& crop) {
@@ -50,9 +54,10 @@ void cropTrainingImage(const TrainingImage& image, ImageCrop& crop) {
   }
 }
 
-ImageStore::ImageStore(TrainingImageSource& source, std::uint64_t seed, std::size_t memory_limit_bytes, int threads,
-                       const std::function<void(double)>& progress)
-    : source_(source), seed_(seed), crops_(source.count()) {
+ImageStore::ImageStore(TrainingImageSource& source, const ImageShare& share, std::uint64_t seed,
+                       std::size_t memory_limit_bytes, int threads, const std::function<void(double)>& progress)
+    : source_(source), seed_(seed), first_(firstOf(share, source.count())) {
+  crops_.resize(firstOf({share.rank + 1, share.ranks}, source.count()) - first_);
   std::atomic<std::size_t> used = 0;
   std::atomic<std::size_t> done = 0;
   parallelFor(threads, crops_.size(), [&](std::size_t i) {
@@ -73,8 +78,8 @@ std::size_t ImageStore::cachedCount() const {
 
 void ImageStore::make(std::size_t i, ImageCrop& crop) {
   TrainingImage image;
-  source_.render(i, image);
-  if ((Random(seed_ + i, kMirrorStream).next() & 1U) != 0) mirrorImage(image);
+  source_.render(first_ + i, image);
+  if ((Random(seed_ + first_ + i, kMirrorStream).next() & 1U) != 0) mirrorImage(image);
   cropTrainingImage(image, crop);
 }
 

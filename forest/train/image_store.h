@@ -24,17 +24,25 @@ struct ImageCrop {
 };
 void cropTrainingImage(const TrainingImage& image, ImageCrop& crop);
 
-// The training images as crops, each mirrored or not by the toss of a coin, so that left and right are balanced. Crops
-// beyond the memory limit are rendered anew at every get(): slower, with the same result.
+// Which of the training images a process has: those from count * rank / ranks on.
+struct ImageShare {
+  int rank = 0;
+  int ranks = 1;
+};
+
+// A share of the training images as crops, each mirrored or not by the toss of a coin, so that left and right are
+// balanced. Crops beyond the memory limit are rendered anew at every get(): slower, with the same result.
 class ImageStore {
  public:
   // `progress` hears the share done, in [0, 1], from any thread.
-  ImageStore(TrainingImageSource& source, std::uint64_t seed, std::size_t memory_limit_bytes, int threads,
-             const std::function<void(double)>& progress);
+  ImageStore(TrainingImageSource& source, const ImageShare& share, std::uint64_t seed, std::size_t memory_limit_bytes,
+             int threads, const std::function<void(double)>& progress);
 
   [[nodiscard]] std::size_t count() const { return crops_.size(); }
+  // The number among all images of the first one here.
+  [[nodiscard]] std::size_t first() const { return first_; }
   [[nodiscard]] std::size_t cachedCount() const;
-  // The crop, in memory or made in `scratch`. Thread-safe.
+  // The i-th crop of those here, in memory or made in `scratch`. Thread-safe.
   const ImageCrop& get(std::size_t i, ImageCrop& scratch);
 
  private:
@@ -42,6 +50,7 @@ class ImageStore {
 
   TrainingImageSource& source_;
   std::uint64_t seed_;
+  std::size_t first_;
   std::vector<ImageCrop> crops_;  // empty depth_mm: not kept
 };
 

@@ -22,8 +22,20 @@ struct MarkerStatistics {
     double median_m = 0;                               // [m] of the distance between pushed-in mode and offset
     double p95_m = 0;                                  // [m]
     int count = 0;                                     // modes measured
+    int seen = 0;                                      // images that show enough of the part for a marker
+    int missing = 0;                                   // of them without a marker
   };
   std::array<PartStatistics, kPartCount> parts;
+  // What the confidence of a marker says: of the markers of all parts with a confidence in [k, k + 1) /
+  // kConfidenceBins.
+  struct ConfidenceBin {
+    int count = 0;
+    double median_m = 0;  // [m]
+    double within = 0;    // share nearer than kNear_m, [0, 1]
+  };
+  static constexpr int kConfidenceBins = 10;
+  static constexpr double kNear_m = 0.05;  // [m]
+  std::array<ConfidenceBin, kConfidenceBins> by_confidence;
 };
 
 struct MarkerStatisticsConfig {
@@ -35,8 +47,7 @@ struct MarkerStatisticsConfig {
 };
 
 // Renders random views of the poses on the bodies and classifies them with `forest`, or with the truth where it is
-// null. Only parts whose bone is placed by averageMarkerModel are measured: all 15. Deterministic for any number of
-// threads.
+// null. Deterministic for any number of threads.
 MarkerStatistics measureMarkers(const std::vector<BodySurface>& bodies,
                                 const std::vector<Eigen::Matrix<float, kDofCount, 1>>& poses, const Forest* forest,
                                 const MarkerStatisticsConfig& config);

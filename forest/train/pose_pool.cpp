@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "libtracker/core/check.h"
+#include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/joint_limits.h"
 
 namespace depthmocap {
@@ -50,6 +52,15 @@ constexpr std::array<int, 6> kRightArm = {kRclavicleRy, kRclavicleRz, kRhumerusR
                                           kRhumerusRy,  kRhumerusRz,  kRradiusRy};
 constexpr std::array<int, 6> kLeftArm = {kLclavicleRy, kLclavicleRz, kLhumerusRx, kLhumerusRy, kLhumerusRz, kLradiusRy};
 
+// The right arm of an actor who stands at ease, the hand beside, before or behind the thigh.
+void hangRightArm(Random& random, Pose& q) {
+  for (const int dof : kRightArm) q[dof] = 0;
+  q[kRhumerusRz] = 1.42 + 0.13 * random.normal();
+  q[kRhumerusRy] = 0.05 + 0.18 * random.normal();
+  q[kRhumerusRx] = 0.4 * random.normal();
+  q[kRradiusRy] = std::abs(0.35 * random.normal());
+}
+
 }  // namespace
 
 bool HeldOutMotions::contains(std::string_view motion) const {
@@ -93,6 +104,10 @@ Pose drawPose(const PosePool& pool, const PoseVariation& variation, Random& rand
     for (const int dof : kLeftArm) q[dof] = left[dof];
   }
   Pose result = q.cast<double>();
+  for (int side = 0; side < 2; ++side) {
+    if (random.uniform() < variation.hang_share) hangRightArm(random, result);
+    result = mirroredPose(result);
+  }
   for (int dof = kFirstBodyDof; dof < kDofCount; ++dof) result[dof] += variation.jitter * random.normal();
   return clampedToLimits(result);
 }

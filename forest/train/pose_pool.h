@@ -40,7 +40,9 @@ void addPoses(const std::vector<MotionClip>& motions, const HeldOutMotions& held
 // How a pose of the pool is varied before it is rendered.
 struct PoseVariation {
   double mix_share = 0.35;  // [0, 1] of the poses whose arms come from another pose, each arm by itself
-  double jitter = 0.06;     // [rad] standard deviation of every angle of the body
+  // [0, 1] of the arms that hang at the side instead, hand on the thigh: people stand so, captured actors seldom do.
+  double hang_share = 0.15;
+  double jitter = 0.06;  // [rad] standard deviation of every angle of the body
 };
 
 // A random pose of the pool (not empty), varied, within the joint limits.

@@ -81,7 +81,7 @@ void drawCurve(const std::vector<CurvePoint>& curve, const std::string& title, c
 
 void drawReport(const TrainingReport& report, const std::filesystem::path& path) {
   cv::Mat picture(kMatrix_px, kMatrix_px + kCurve_px, CV_8UC3, cv::Scalar::all(255));
-  drawMatrix(report.confusion, picture);
+  drawMatrix(report.accuracy.all, picture);
   write(picture, "true part in rows, found part in columns, percent of the row", kNames_px, kMatrix_px - 6, 0.42);
   const int height = kMatrix_px / 3;
   const auto panel = [&](int i) { return picture(cv::Rect(kMatrix_px, i * height, kCurve_px, height)); };

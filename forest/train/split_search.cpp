@@ -63,16 +63,16 @@ int thresholdMillimetres(int bin, const CandidateFeature& feature) {
 
 void SplitHistogram::reset(std::span<const CandidateFeature> features) {
   features_.assign(features.begin(), features.end());
-  counts_.assign(features.size() * kBinCount * kHistogramParts, 0);
+  counts_.assign(features.size() * kBinCount * kClassCount, 0);
 }
 
-void SplitHistogram::add(const std::uint16_t* probes_mm, std::uint8_t part_index) {
-  std::uint32_t* counts = counts_.data() + part_index;
+void SplitHistogram::add(const std::uint16_t* probes_mm, std::uint8_t class_index) {
+  std::uint32_t* counts = counts_.data() + class_index;
   for (const CandidateFeature& feature : features_) {
     const int value = probes_mm[feature.first] - probes_mm[feature.second] + feature.jitter_mm;
     const auto bin = kLookup[static_cast<std::size_t>((value + kShift_mm) / kStep_mm)];
-    ++counts[std::size_t{bin} * kHistogramParts];
-    counts += kBinCount * kHistogramParts;
+    ++counts[std::size_t{bin} * kClassCount];
+    counts += kBinCount * kClassCount;
   }
 }
 
@@ -84,29 +84,57 @@ std::int64_t EntropyTable::compute(std::uint32_t n) {
   return n < 2 ? 0 : std::llround(n * std::log2(n) * kOne);
 }
 
-Split bestThreshold(const std::uint32_t* histogram, const PartCounts& total, std::uint32_t min_leaf,
+namespace {
+
+// The samples on one side of a threshold, and the sums of n log n over them.
+struct Side {
+  ClassCounts of_class{};
+  std::array<std::uint32_t, kFacingCount> of_facing{};
+  std::uint32_t all = 0;
+};
+
+}  // namespace
+
+Split bestThreshold(const std::uint32_t* histogram, const ClassCounts& total, std::uint32_t min_leaf, int facing_weight,
                     const EntropyTable& entropy) {
-  PartCounts left{};
-  PartCounts right = total;
-  const std::uint32_t all = std::accumulate(total.begin(), total.end(), 0U);
-  std::int64_t parts = 0;  // sum of n log n over the parts of both sides
-  for (const std::uint32_t n : total) parts += entropy(n);
-  const std::int64_t before = parts - entropy(all);
-  std::uint32_t left_count = 0;
+  Side left, right;
+  std::int64_t classes = 0;  // sums of n log n over the classes and facings of both sides
+  std::int64_t facings = 0;
+  for (std::size_t c = 0; c < kClassCount; ++c) {
+    right.of_class[c] = total[c];
+    right.of_facing[c / kClassesPerFacing] += total[c];
+    right.all += total[c];
+    classes += entropy(total[c]);
+  }
+  for (const std::uint32_t n : right.of_facing) facings += entropy(n);
+  const auto score = [&] {
+    return 8 * (classes - facings) + facing_weight * (facings - entropy(left.all) - entropy(right.all));
+  };
+  const std::int64_t before = score();
   Split best;
-  for (int bin = 0; bin < kBinCount - 1; ++bin, histogram += kHistogramParts) {
-    const std::uint32_t left_before = left_count;
-    for (std::size_t part = 0; part < kPartCount; ++part) {
-      const std::uint32_t n = histogram[part];
-      if (n == 0) continue;
-      parts -= entropy(left[part]) + entropy(right[part]);
-      left[part] += n;
-      right[part] -= n;
-      parts += entropy(left[part]) + entropy(right[part]);
-      left_count += n;
+  for (int bin = 0; bin < kBinCount - 1; ++bin, histogram += kClassCount) {
+    const std::uint32_t left_before = left.all;
+    for (std::size_t f = 0; f < kFacingCount; ++f) {
+      std::uint32_t moved = 0;
+      for (std::size_t c = f * kClassesPerFacing; c < f * kClassesPerFacing + kPartCount; ++c) {
+        const std::uint32_t n = histogram[c];
+        if (n == 0) continue;
+        classes -= entropy(left.of_class[c]) + entropy(right.of_class[c]);
+        left.of_class[c] += n;
+        right.of_class[c] -= n;
+        classes += entropy(left.of_class[c]) + entropy(right.of_class[c]);
+        moved += n;
+      }
+      if (moved == 0) continue;
+      facings -= entropy(left.of_facing[f]) + entropy(right.of_facing[f]);
+      left.of_facing[f] += moved;
+      right.of_facing[f] -= moved;
+      facings += entropy(left.of_facing[f]) + entropy(right.of_facing[f]);
+      left.all += moved;
+      right.all -= moved;
     }
-    if (left_count == left_before || left_count < min_leaf || all - left_count < min_leaf) continue;
-    const std::int64_t gain = parts - entropy(left_count) - entropy(all - left_count) - before;
+    if (left.all == left_before || left.all < min_leaf || right.all < min_leaf) continue;
+    const std::int64_t gain = score() - before;
     if (gain > best.gain) best = {gain, 0, bin};
   }
   return best;

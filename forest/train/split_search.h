@@ -4,12 +4,21 @@
 #include <span>
 #include <vector>
 
+#include "libtracker/core/facing.h"
 #include "libtracker/core/parts.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {
 
 using PartCounts = std::array<std::uint32_t, kPartCount>;
+
+// What a split is to tell apart: the part, and the side from which the actor is seen.
+inline constexpr int kClassesPerFacing = 16;  // kPartCount and one unused
+inline constexpr int kClassCount = kFacingCount * kClassesPerFacing;
+using ClassCounts = std::array<std::uint32_t, kClassCount>;
+constexpr std::uint8_t classIndex(Facing facing, int part_index) {
+  return static_cast<std::uint8_t>(static_cast<int>(facing) * kClassesPerFacing + part_index);
+}
 
 // [px * m] an offset of a feature.
 using ProbeOffset = std::array<std::int16_t, 2>;
@@ -36,19 +45,16 @@ CandidateFeature drawCandidate(const FeatureOptions& options, Random& random);
 
 // Feature values fall into bins whose edges are the candidate thresholds.
 inline constexpr int kBinCount = 32;
-inline constexpr int kHistogramParts = 16;                           // kPartCount and one unused
 int thresholdMillimetres(int bin, const CandidateFeature& feature);  // between `bin` and `bin` + 1
 
-// How many samples of each part fall into each bin, for a list of features: [feature][bin][kHistogramParts]. Sums over
+// How many samples of each class fall into each bin, for a list of features: [feature][bin][kClassCount]. Sums over
 // samples: histograms of disjoint sets of samples add up.
 class SplitHistogram {
  public:
   void reset(std::span<const CandidateFeature> features);
   // `probes_mm`: the depth at every offset of the level for one sample.
-  void add(const std::uint16_t* probes_mm, std::uint8_t part_index);
-  [[nodiscard]] const std::uint32_t* of(std::size_t feature) const {
-    return counts_.data() + feature * kBinCount * kHistogramParts;
-  }
+  void add(const std::uint16_t* probes_mm, std::uint8_t class_index);
+  [[nodiscard]] std::span<const std::uint32_t> counts() const { return counts_; }
 
  private:
   std::vector<CandidateFeature> features_;
@@ -68,13 +74,14 @@ class EntropyTable {
 };
 
 struct Split {
-  std::int64_t gain = -1;  // [bit * sample / EntropyTable::kOne]; < 0: none is possible
-  std::size_t feature = 0;
+  std::int64_t gain = -1;  // [bit * sample / (8 EntropyTable::kOne)]; < 0: none is possible
+  std::uint32_t feature = 0;
   int bin = 0;  // left: bins up to this one
 };
 
-// The threshold of one feature's histogram that lowers the entropy most, with at least `min_leaf` samples on each side.
-Split bestThreshold(const std::uint32_t* histogram, const PartCounts& total, std::uint32_t min_leaf,
+// The threshold of one feature's histogram that lowers H(part | facing) + facing_weight / 8 H(facing) most, with at
+// least `min_leaf` samples on each side.
+Split bestThreshold(const std::uint32_t* histogram, const ClassCounts& total, std::uint32_t min_leaf, int facing_weight,
                     const EntropyTable& entropy);
 
 }  // namespace depthmocap

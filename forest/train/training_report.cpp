@@ -63,7 +63,7 @@ void writeTrainingReport(const TrainingReport& report, const Forest& forest, std
   picture += ".report.png";
   std::filesystem::path text_path = stem;
   text_path += ".report.md";
-  const ConfusionMatrix& confusion = report.confusion;
+  const ConfusionMatrix& confusion = report.accuracy.all;
   std::string text = fmt::format("# {}\n\nMade by\n\n```\n{}\n```\n\n", report.title, report.command);
   text += fmt::format("Trained on {}. Measured on {}.\n\n", report.data, report.validation);
   text += fmt::format("Time: {:.0f} s rendering, {:.0f} s training.\n\n", report.render_s, report.training_s);
@@ -71,8 +71,11 @@ void writeTrainingReport(const TrainingReport& report, const Forest& forest, std
   text += fmt::format("Mean over the parts **{:.1f} %**; over all pixels {:.1f} % of {}.\n\n",
                       100 * confusion.meanAccuracy(), 100 * confusion.accuracy(), confusion.total());
   if (forest.facings > 1) {
-    text +=
-        fmt::format("The side that is seen was found in {:.1f} % of the images.\n\n", 100 * confusion.facingAccuracy());
+    text += fmt::format(
+        "Seen from the front {:.1f} %. The side that is seen was found in {:.1f} % of the images; had it been "
+        "told, the mean over the parts were {:.1f} %.\n\n",
+        100 * report.accuracy.from[static_cast<std::size_t>(Facing::Front)].meanAccuracy(),
+        100 * report.accuracy.facingAccuracy(), 100 * report.accuracy.given_facing.meanAccuracy());
   }
   text += accuracyTable(confusion) + "\n## Learning curves\n\n";
   text += curveTable("trees", report.by_trees) + curveTable("depth", report.by_depth) +

@@ -22,7 +22,7 @@ struct TrainingReport {
   std::string validation;  // what it was measured on
   double render_s = 0;     // [s]
   double training_s = 0;   // [s]
-  ConfusionMatrix confusion;
+  ForestAccuracy accuracy;
   std::vector<CurvePoint> by_trees, by_depth, by_images;
 };
 

@@ -54,7 +54,7 @@ TrainingSamples drawSamples(ImageStore& images, std::uint32_t pixels_per_image, 
     ImageCrop scratch;
     const ImageCrop& crop = images.get(i, scratch);
     result.facing[i] = crop.facing;
-    drawn[i] = drawFromImage(crop, pixels_per_image, Random(seed + i, kSampleStream));
+    drawn[i] = drawFromImage(crop, pixels_per_image, Random(seed + images.first() + i, kSampleStream));
   });
   result.first.push_back(0);
   for (std::size_t i = 0; i < drawn.size(); ++i) {

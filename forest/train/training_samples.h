@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "forest/train/image_store.h"
+#include "forest/train/split_search.h"
 
 namespace depthmocap {
 
@@ -18,6 +19,9 @@ struct TrainingSamples {
   std::vector<std::uint32_t> image;  // of each sample
   std::vector<Facing> facing;        // of each image
 
+  [[nodiscard]] std::uint8_t classOf(std::uint32_t sample) const {
+    return classIndex(facing[image[sample]], samples[sample].part_index);
+  }
   [[nodiscard]] std::size_t size() const { return samples.size(); }
 };
 

@@ -24,6 +24,7 @@ void TreeOptions::validate() const {
   require(pixels_per_image >= 1 && pixels_per_image <= 10000, "pixels", pixels_per_image, "1 .. 10000");
   require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 .. 100000");
   require(min_leaf >= 1, "min_leaf", min_leaf, ">= 1");
+  require(facing_weight >= 0 && facing_weight <= 64, "facing_weight", facing_weight, "0 .. 64");
   require(max_nodes >= 3 && max_nodes <= (1U << 23U), "max_nodes", max_nodes, "3 .. 8388608");
   require(node_samples >= 2, "node_samples", node_samples, ">= 2");
   require(batch_samples >= node_samples, "batch_samples", batch_samples, ">= node_samples");

@@ -12,20 +12,22 @@ namespace {
 
 class TreeGrower {
  public:
-  TreeGrower(ImageStore& images, const TreeOptions& options, std::uint64_t seed, int threads, TrainedTree& tree)
+  TreeGrower(ImageStore& images, Communicator& ranks, const TreeOptions& options, std::uint64_t seed, int threads,
+             TrainedTree& tree)
       : images_(images),
+        ranks_(ranks),
         options_(options),
         seed_(seed),
         threads_(threads),
         tree_(tree),
         samples_(drawSamples(images, options.pixels_per_image, seed, threads)),
-        search_(images, samples_, options, threads),
+        search_(images, samples_, ranks, options, threads),
         node_of_(samples_.size(), 0) {}
 
   void grow(const std::function<void(int)>& finished_level) {
     if (tree_.nodes.empty()) {
       tree_.nodes.resize(1);
-      for (const auto& sample : samples_.samples) ++tree_.nodes[0].counts[sample.part_index];
+      countSamples(0);
     }
     for (int level = 0; level < options_.depth; ++level) {
       if (!growLevel(level)) break;
@@ -42,7 +44,7 @@ class TreeGrower {
     const bool is_new = end == tree_.nodes.size();
     if (is_new && !splitNodes(first, end, level)) return false;
     descend(first, end);
-    if (is_new) countChildren(end);
+    if (is_new) countSamples(end);
     return true;
   }
 
@@ -67,7 +69,7 @@ class TreeGrower {
       place[n - first] = static_cast<std::int32_t>(open.size());
       auto& node = open.emplace_back();
       node.node = static_cast<std::int32_t>(n);
-      node.samples.reserve(std::accumulate(counts.begin(), counts.end(), 0U));
+      node.all = std::accumulate(counts.begin(), counts.end(), 0U);
     }
     for (std::size_t s = 0; s < node_of_.size(); ++s) {
       const auto n = static_cast<std::size_t>(node_of_[s]);
@@ -116,10 +118,17 @@ class TreeGrower {
     });
   }
 
-  void countChildren(std::size_t first) {
+  // The samples of all ranks in the nodes from `first` on.
+  void countSamples(std::size_t first) {
+    std::vector<std::uint32_t> counts((tree_.nodes.size() - first) * kPartCount, 0);
     for (std::size_t s = 0; s < node_of_.size(); ++s) {
       const auto n = static_cast<std::size_t>(node_of_[s]);
-      if (n >= first) ++tree_.nodes[n].counts[samples_.samples[s].part_index];
+      if (n >= first) ++counts[(n - first) * kPartCount + samples_.samples[s].part_index];
+    }
+    ranks_.sum(counts);
+    for (std::size_t n = first; n < tree_.nodes.size(); ++n) {
+      std::copy_n(counts.begin() + static_cast<std::ptrdiff_t>((n - first) * kPartCount), kPartCount,
+                  tree_.nodes[n].counts.begin());
     }
   }
 
@@ -129,15 +138,22 @@ class TreeGrower {
     for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
       if (tree_.nodes[n].split.child <= 0) leaf_of[n] = leaves++;
     }
-    tree_.leaf_counts.assign(static_cast<std::size_t>(leaves), {});
+    std::vector<std::uint32_t> counts(static_cast<std::size_t>(leaves) * kFacingCount * kPartCount, 0);
     for (std::size_t s = 0; s < node_of_.size(); ++s) {
       const auto leaf = static_cast<std::size_t>(leaf_of[static_cast<std::size_t>(node_of_[s])]);
       const auto facing = static_cast<std::size_t>(samples_.facing[samples_.image[s]]);
-      ++tree_.leaf_counts[leaf][facing][samples_.samples[s].part_index];
+      ++counts[(leaf * kFacingCount + facing) * kPartCount + samples_.samples[s].part_index];
+    }
+    ranks_.sum(counts);
+    tree_.leaf_counts.assign(static_cast<std::size_t>(leaves), {});
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const std::size_t row = i / kPartCount;
+      tree_.leaf_counts[row / kFacingCount][row % kFacingCount][i % kPartCount] = counts[i];
     }
   }
 
   ImageStore& images_;
+  Communicator& ranks_;
   const TreeOptions& options_;
   std::uint64_t seed_;
   int threads_;
@@ -149,10 +165,10 @@ class TreeGrower {
 
 }  // namespace
 
-void growTree(ImageStore& images, const TreeOptions& options, std::uint64_t seed, int threads, TrainedTree& tree,
-              const std::function<void(int)>& finished_level) {
+void growTree(ImageStore& images, Communicator& ranks, const TreeOptions& options, std::uint64_t seed, int threads,
+              TrainedTree& tree, const std::function<void(int)>& finished_level) {
   options.validate();
-  TreeGrower(images, options, seed, threads, tree).grow(finished_level);
+  TreeGrower(images, ranks, options, seed, threads, tree).grow(finished_level);
 }
 
 }  // namespace depthmocap

@@ -9,6 +9,7 @@
 #include "forest/train/forest_accuracy.h"
 #include "libtracker/core/error.h"
 #include "tests/unit/train/disc_figures.h"
+#include "tests/unit/train/thread_ranks.h"
 
 namespace depthmocap {
 namespace {
@@ -29,7 +30,8 @@ const TrainingProgress kSilent = [](const std::string&, double) {};
 
 std::vector<TrainedTree> train(const ForestTrainingOptions& options, std::size_t images = 60) {
   test::DiscFigures source(images, 1);
-  return trainForest(source, options, kSilent);
+  SingleCommunicator alone;
+  return trainForest(source, alone, options, kSilent);
 }
 
 void expectEqual(const std::vector<TrainedTree>& a, const std::vector<TrainedTree>& b) {
@@ -45,6 +47,7 @@ void expectEqual(const std::vector<TrainedTree>& a, const std::vector<TrainedTre
       ASSERT_EQ(x.split.v, y.split.v);
       ASSERT_EQ(x.split.threshold_m, y.split.threshold_m);
     }
+    ASSERT_EQ(a[t].leaf_counts, b[t].leaf_counts);
   }
 }
 
@@ -52,7 +55,7 @@ TEST(ForestTrainer, LearnsFiguresItHasNotSeen) {
   const Forest forest = finishedForest(train(smallOptions(), 400), {}, "test");
   EXPECT_NO_THROW(checkForest(forest));
   test::DiscFigures unseen(20, 999);
-  const ConfusionMatrix confusion = measureAccuracy({&forest, 1}, unseen, 2, 2, [](double) {})[0];
+  const ConfusionMatrix confusion = measureAccuracy({&forest, 1}, unseen, 2, 2, [](double) {})[0].all;
   EXPECT_GT(confusion.total(), 1000U);
   // Mirroring makes front and back views of these figures equally likely: left and right are a toss of a coin here, but
   // every other confusion would be the trainer's fault.
@@ -72,6 +75,24 @@ TEST(ForestTrainer, SameTreesForAnyNumberOfThreadsAndAnyMemory) {
   expectEqual(one, train(options));
   options.memory_bytes = 40000;  // a few images
   expectEqual(one, train(options));
+}
+
+// Large nodes are searched by sums of histograms, small ones by one rank each: both ways occur here, and nodes of which
+// only a selection is looked at.
+TEST(ForestTrainer, SameTreesForAnyNumberOfRanks) {
+  ForestTrainingOptions options = smallOptions();
+  options.tree.depth = 6;
+  options.tree.node_samples = 20000;
+  options.tree.batch_samples = 30000;
+  const auto alone = train(options, 400);
+  for (const int ranks : {2, 3}) {
+    std::vector<std::vector<TrainedTree>> trees(static_cast<std::size_t>(ranks));
+    test::ThreadRanks(ranks).run([&](Communicator& communicator) {
+      test::DiscFigures source(400, 1);
+      trees[static_cast<std::size_t>(communicator.rank())] = trainForest(source, communicator, options, kSilent);
+    });
+    for (const auto& of_rank : trees) expectEqual(alone, of_rank);
+  }
 }
 
 TEST(ForestTrainer, CountsOfChildrenAddUpAndSidesHaveTheirMinimum) {
@@ -166,7 +187,8 @@ TEST_F(ForestCheckpoint, ResumedTrainingGivesTheSameTrees) {
   const auto interrupt = [&](const std::string& stage, double) {
     if (stage == "tree 2 of 2" && ++calls == 4) throw std::runtime_error("interrupted");
   };
-  EXPECT_THROW(trainForest(source, options, interrupt), std::runtime_error);
+  SingleCommunicator alone;
+  EXPECT_THROW(trainForest(source, alone, options, interrupt), std::runtime_error);
   options.resume = true;
   expectEqual(whole, train(options));
   options.seed = 2;
@@ -194,6 +216,7 @@ TEST(ForestTrainer, BadOptionsAreErrors) {
   refused([](auto& o) { o.threads = 0; });
   refused([](auto& o) { o.tree.depth = 0; });
   refused([](auto& o) { o.tree.min_leaf = 0; });
+  refused([](auto& o) { o.tree.facing_weight = -1; });
   refused([](auto& o) { o.tree.features.offsets = 1; });
   refused([](auto& o) { o.tree.features.max_offset = 1; });
   refused([](auto& o) { o.tree.batch_samples = 10; });

@@ -84,7 +84,7 @@ TEST(ImageCrop, EmptyImageHasNoSamples) {
 
 TEST(ImageStore, MirrorsAboutHalfOfTheImages) {
   test::DiscFigures source(64, 4);
-  ImageStore store(source, 9, std::size_t{1} << 30U, 2, [](double) {});
+  ImageStore store(source, {}, 9, std::size_t{1} << 30U, 2, [](double) {});
   EXPECT_EQ(store.cachedCount(), 64U);
   int mirrored_count = 0;
   ImageCrop scratch;
@@ -99,9 +99,26 @@ TEST(ImageStore, MirrorsAboutHalfOfTheImages) {
   EXPECT_LT(mirrored_count, 46);
 }
 
+TEST(ImageStore, SharesTogetherAreAllImages) {
+  test::DiscFigures source(7, 4);
+  const auto make = [&](const ImageShare& share) { return ImageStore(source, share, 9, 0, 1, [](double) {}); };
+  ImageStore whole = make({});
+  std::size_t count = 0;
+  ImageCrop scratch, other;
+  for (int rank = 0; rank < 3; ++rank) {
+    ImageStore share = make({rank, 3});
+    ASSERT_EQ(share.first(), count);
+    for (std::size_t i = 0; i < share.count(); ++i) {
+      EXPECT_EQ(share.get(i, scratch).depth_mm, whole.get(count + i, other).depth_mm);
+    }
+    count += share.count();
+  }
+  EXPECT_EQ(count, 7U);
+}
+
 TEST(TrainingSamples, SmallPartsAreDrawnMoreOftenThanTheirShare) {
   test::DiscFigures source(30, 4);
-  ImageStore store(source, 9, std::size_t{1} << 30U, 1, [](double) {});
+  ImageStore store(source, {}, 9, std::size_t{1} << 30U, 1, [](double) {});
   const TrainingSamples samples = drawSamples(store, 100, 5, 2);
   ASSERT_EQ(samples.size(), 3000U);
   ASSERT_EQ(samples.first.size(), 31U);

@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "forest/train/pose_pool.h"
+#include "forest/train/rendered_image_source.h"
+
+namespace CLI {
+class App;
+}
+
+namespace depthmocap {
+
+// Where the images of a forest command come from.
+struct DataOptions {
+  std::vector<std::string> pose_databases;
+  bool procedural = false;
+  std::string makehuman;
+  bool t_pose = false;
+  bool plain = false;
+  std::vector<std::string> exclude;
+  int bodies = 200;
+  std::uint64_t seed = 1;
+  int threads = 2;
+};
+
+void addDataOptions(CLI::App& command, DataOptions& data);
+
+// Bodies, poses and the images made of them.
+struct ImageSet {
+  std::shared_ptr<const std::vector<BodySurface>> bodies;
+  std::shared_ptr<const PosePool> poses;
+  std::unique_ptr<RenderedImageSource> source;
+};
+
+// `use` decides about poses, bodies and views: what measures a forest never meets what taught it.
+ImageSet makeImageSet(const DataOptions& data, PoseUse use, std::size_t images);
+
+}  // namespace depthmocap
