@@ -104,7 +104,7 @@ struct LiveRun {
   TrackOutputs outputs;
   std::optional<Recorder> recorder;
   std::optional<LiveView> view;
-  RunStats stats;
+  RunStats stats{Durations::Keep::Binned};
 };
 
 LiveFigures track(LiveRun& run, double seconds) {

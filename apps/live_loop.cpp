@@ -63,7 +63,7 @@ void LiveLoop::track(const SensorFrame& frame) {
   for (LiveSink* sink : sinks_) sink->onFrame(frame.depth, tracked);
   const SensorClock::time_point now = SensorClock::now();
   status_.latency_ms = std::chrono::duration<double, std::milli>(now - frame.taken).count();
-  figures_.latency_ms.push_back(status_.latency_ms);
+  figures_.latency.add(status_.latency_ms);
   status_.state = tracked.state;
   ++status_.tracked;
   recent_.push_back(now);

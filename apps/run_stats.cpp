@@ -1,9 +1,8 @@
 #include "apps/run_stats.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <nlohmann/json.hpp>
-#include <numeric>
+#include <utility>
 
 #include <sys/resource.h>
 
@@ -14,28 +13,24 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Nearest-rank percentiles [ms].
-ordered_json summary(std::vector<double> ms) {
-  if (ms.empty()) return {{"p50", 0.0}, {"p95", 0.0}, {"p99", 0.0}, {"mean", 0.0}};
-  std::sort(ms.begin(), ms.end());
-  const auto rank = [&](double share) {
-    return ms[static_cast<std::size_t>(std::lround(share * static_cast<double>(ms.size() - 1)))];
-  };
-  const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
-  return {{"p50", rank(0.50)}, {"p95", rank(0.95)}, {"p99", rank(0.99)}, {"mean", mean}};
-}
+// In the order of RunStats::stages_.
+constexpr std::array<std::pair<const char*, double StageTimes::*>, kStageCount> kStages = {
+    {{"segment", &StageTimes::segment},
+     {"classify", &StageTimes::classify},
+     {"markers", &StageTimes::markers},
+     {"prior", &StageTimes::prior},
+     {"solve", &StageTimes::solve},
+     {"total", &StageTimes::total}}};
 
-ordered_json summary(const std::vector<StageTimes>& times, double StageTimes::*stage) {
-  std::vector<double> ms;
-  ms.reserve(times.size());
-  for (const StageTimes& t : times) ms.push_back(t.*stage);
-  return summary(std::move(ms));
+ordered_json summaryOf(const Durations& durations) {
+  const Durations::Summary s = durations.summary();
+  return {{"p50", s.p50}, {"p95", s.p95}, {"p99", s.p99}, {"mean", s.mean}};
 }
 
 ordered_json liveSummary(const LiveFigures& live) {
   return {{"source", live.source},     {"received", live.received},         {"skipped", live.replaced},
           {"missing", live.missing},   {"damaged", live.damaged},           {"returns", live.returns},
-          {"recorded", live.recorded}, {"not_recorded", live.not_recorded}, {"latency_ms", summary(live.latency_ms)}};
+          {"recorded", live.recorded}, {"not_recorded", live.not_recorded}, {"latency_ms", summaryOf(live.latency)}};
 }
 
 double peakRssMb() {
@@ -53,34 +48,29 @@ void RunStats::addFrame(const TrackedFrame& frame) {
   lost_ += frame.state == TrackState::Lost ? 1 : 0;
   reinitialised_ += frame.reinitialised ? 1 : 0;
   stature_m_ = frame.stature_m;
-  ms_.push_back(frame.ms);
-  iterations_.push_back(frame.solver_iterations);
+  for (std::size_t i = 0; i < kStages.size(); ++i) stages_[i].add(frame.ms.*kStages[i].second);
+  iterations_ += static_cast<std::uint64_t>(frame.solver_iterations);
 }
 
 void RunStats::write(const std::filesystem::path& path, double wall_s, bool adapted) const {
   ordered_json stages;
-  stages["segment"] = summary(ms_, &StageTimes::segment);
-  stages["classify"] = summary(ms_, &StageTimes::classify);
-  stages["markers"] = summary(ms_, &StageTimes::markers);
-  stages["prior"] = summary(ms_, &StageTimes::prior);
-  stages["solve"] = summary(ms_, &StageTimes::solve);
-  stages["total"] = summary(ms_, &StageTimes::total);
-  stages["read"] = summary(read_ms_);
-  stages["write"] = summary(write_ms_);
-  const double iterations = std::accumulate(iterations_.begin(), iterations_.end(), 0.0);
-  ordered_json stats = {{"frames", frames_},
-                        {"tracked", tracked_},
-                        {"coasting", coasting_},
-                        {"lost", lost_},
-                        {"reinitialised", reinitialised_},
-                        {"unreadable", unreadable_},
-                        {"wall_s", wall_s},
-                        {"stage_ms", stages},
-                        {"solver_iterations_mean", frames_ > 0 ? iterations / static_cast<double>(frames_) : 0.0},
-                        {"stature_m", stature_m_},
-                        {"size_adapted", adapted},
-                        {"peak_rss_mb", peakRssMb()},
-                        {"version", DEPTHMOCAP_VERSION}};
+  for (std::size_t i = 0; i < kStages.size(); ++i) stages[kStages[i].first] = summaryOf(stages_[i]);
+  stages["read"] = summaryOf(read_);
+  stages["write"] = summaryOf(write_);
+  ordered_json stats = {
+      {"frames", frames_},
+      {"tracked", tracked_},
+      {"coasting", coasting_},
+      {"lost", lost_},
+      {"reinitialised", reinitialised_},
+      {"unreadable", unreadable_},
+      {"wall_s", wall_s},
+      {"stage_ms", stages},
+      {"solver_iterations_mean", frames_ > 0 ? static_cast<double>(iterations_) / static_cast<double>(frames_) : 0.0},
+      {"stature_m", stature_m_},
+      {"size_adapted", adapted},
+      {"peak_rss_mb", peakRssMb()},
+      {"version", DEPTHMOCAP_VERSION}};
   if (live_) stats["live"] = liveSummary(*live_);
   writeFileAtomically(path, stats.dump(2) + "\n");
 }

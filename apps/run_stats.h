@@ -1,20 +1,24 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
+#include "apps/durations.h"
 #include "apps/live_figures.h"
 #include "libtracker/tracker/tracked_frame.h"
 
 namespace depthmocap {
 
+inline constexpr std::size_t kStageCount = 6;  // of StageTimes
+
 // What a tracking run did and how long its stages took (../contract: "Stats").
 class RunStats {
  public:
+  explicit RunStats(Durations::Keep keep = Durations::Keep::All) : read_(keep), write_(keep) {}
   void addFrame(const TrackedFrame& frame);
-  void addRead(double ms) { read_ms_.push_back(ms); }
-  void addWrite(double ms) { write_ms_.push_back(ms); }
+  void addRead(double ms) { read_.add(ms); }
+  void addWrite(double ms) { write_.add(ms); }
   void addUnreadable() { ++unreadable_; }
   // Adds "live" to what is written.
   void setLive(const LiveFigures& figures) { live_ = figures; }
@@ -32,10 +36,10 @@ class RunStats {
   std::size_t unreadable_ = 0;
   double stature_m_ = 0;
   std::optional<LiveFigures> live_;
-  std::vector<StageTimes> ms_;
-  std::vector<int> iterations_;
-  std::vector<double> read_ms_;
-  std::vector<double> write_ms_;
+  std::uint64_t iterations_ = 0;  // of the solver
+  Durations read_;
+  Durations write_;
+  std::array<Durations, kStageCount> stages_{read_, read_, read_, read_, read_, read_};
 };
 
 }  // namespace depthmocap
