@@ -12,6 +12,8 @@ constexpr double kDownHeight_m = 0.06;   // above where the point is in a standi
 constexpr double kUpHeight_m = 0.10;
 constexpr double kUpDistance_m = 0.03;  // from the place where it was put down
 constexpr double kDrift_s = 0.2;        // time constant with which that place follows the poses
+constexpr double kFirstWeight = 0.2;    // a step of a runner is too short to be sure of;
+constexpr double kTrust_s = 0.4;        // the weight grows by 1 in this time
 
 struct Sole {
   BonePoint point;
@@ -72,11 +74,12 @@ void FootWatch::putDownOrLift(Track& track, double height_m, double dt_s, FootCo
   if (contact.weight > 0) {
     const Eigen::Vector3d away = p_world - contact.p_world;
     contact.p_world += away * dt_s / (dt_s + kDrift_s);
+    contact.weight = std::min(1.0, contact.weight + dt_s / kTrust_s);
     if (away.norm() < kUpDistance_m && height_m < kUpHeight_m) return;
     contact.weight = 0;
     track.seen = 1;  // it has to rest anew
   } else if (track.rests() && height_m < kDownHeight_m) {
-    contact.weight = 1;
+    contact.weight = kFirstWeight;
     contact.p_world = 0.5 * (p_world + track.last[1].p_world);
   }
 }

@@ -47,18 +47,20 @@ class Walker {
 TEST(FootWatch, FeetThatRestOnTheFloorStandWhereTheyAre) {
   Walker walker;
   EXPECT_EQ(walker.stand(2)[kLeftAnkle].weight, 0);  // too early to tell
-  const FootContacts& contacts = walker.stand(8);
+  const FootContacts& contacts = walker.stand(4);
   ForwardKinematics fk;
   fk.update(walker.skeleton, walker.standing());
   for (const FootContact& contact : contacts) {
-    EXPECT_EQ(contact.weight, 1);
+    EXPECT_GT(contact.weight, 0);
+    EXPECT_LT(contact.weight, 1);
     EXPECT_LT((contact.p_world - fk.position(contact.point)).norm(), 1e-9);
   }
+  for (const FootContact& contact : walker.stand(15)) EXPECT_EQ(contact.weight, 1);  // surer by and by
 }
 
 TEST(FootWatch, NoiseDoesNotMoveAPlaceMuch) {
   Walker walker;
-  walker.stand(10);
+  walker.stand(20);
   const Eigen::Vector3d before = walker.watch.contacts()[kRightAnkle].p_world;
   Random random(1);
   for (int i = 0; i < 60; ++i) {
@@ -81,7 +83,7 @@ TEST(FootWatch, WalkingOnTheSpotLiftsOneFootAndKeepsTheOther) {
   EXPECT_EQ(contacts[kRightAnkle].weight, 1);
   EXPECT_EQ(contacts[kRightToe].weight, 1);
   for (int i = 8; i >= 0; --i) walker.show(walker.kneeRaised(0.12 * i));
-  EXPECT_EQ(walker.stand(8)[kLeftAnkle].weight, 1);
+  EXPECT_GT(walker.stand(8)[kLeftAnkle].weight, 0);
 }
 
 TEST(FootWatch, NothingStandsInAJump) {
@@ -95,7 +97,7 @@ TEST(FootWatch, NothingStandsInAJump) {
     if (i < 3) continue;
     for (const FootContact& contact : contacts) EXPECT_EQ(contact.weight, 0) << "frame " << i;
   }
-  for (const FootContact& contact : walker.stand(8)) EXPECT_EQ(contact.weight, 1);
+  for (const FootContact& contact : walker.stand(8)) EXPECT_GT(contact.weight, 0);
 }
 
 TEST(FootWatch, SlidingFeetDoNotStand) {
@@ -115,7 +117,7 @@ TEST(FootWatch, ASeenFloorSaysWhatIsOnIt) {
   }
   const Eigen::Vector4d at_the_soles(0, 1, 0, 0);
   for (int i = 0; i < 5; ++i) walker.show(walker.standing(), at_the_soles);
-  for (const FootContact& contact : walker.watch.contacts()) EXPECT_EQ(contact.weight, 1);
+  for (const FootContact& contact : walker.watch.contacts()) EXPECT_GT(contact.weight, 0);
 }
 
 TEST(FootWatch, ForgetsWhenReset) {
