@@ -1,0 +1,112 @@
+// Runs inside the guest: tracks what a real kernel's /dev/video device delivers, and tracks the recording that was made
+// meanwhile again: both must give the same poses.
+//
+// Usage: guest_tracking LOOPBACK RECORDING CAMERA.json ...
+//   LOOPBACK: a v4l2loopback device, to which the pictures of RECORDING are written by a thread.
+#include <atomic>
+#include <cstdio>
+#include <map>
+#include <thread>
+
+#include "apps/live_loop.h"
+#include "apps/tracker_setup.h"
+#include "libtracker/recording/recording_header.h"
+#include "libtracker/sensor/v4l2_source.h"
+#include "tests/qemu/feeder.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr int kPictures = 12;
+constexpr std::chrono::milliseconds kStep(20);
+constexpr int kPatience = 3000;        // steps; an emulated processor takes seconds for a frame
+constexpr double kSameJoint_m = 1e-6;  // times are written to the microsecond
+
+class Collector : public LiveSink {
+ public:
+  void onFrame(const DepthFrame& frame, const TrackedFrame& tracked) override {
+    joints_[frame.frame] = tracked.joints_camera;
+    tracking_ += tracked.state == TrackState::Tracking ? 1 : 0;
+    ++count;
+  }
+  std::atomic<int> count{0};
+  [[nodiscard]] const std::map<std::int64_t, JointPositions>& joints() const { return joints_; }
+  [[nodiscard]] int tracking() const { return tracking_; }
+
+ private:
+  std::map<std::int64_t, JointPositions> joints_;
+  int tracking_ = 0;
+};
+
+// Each picture is sent when the one before has been tracked.
+void feed(const Feeder& feeder, const std::vector<Image<std::uint16_t>>& pictures, const Collector& collector) {
+  for (const auto& picture : pictures) {
+    const int before = collector.count;
+    feeder.send(picture);
+    for (int i = 0; i < kPatience && collector.count == before; ++i) std::this_thread::sleep_for(kStep);
+  }
+}
+
+void trackLive(const std::string& device, const std::string& recording, const std::string& camera_file) {
+  SourceOptions options;
+  options.camera = readRecordingHeader(camera_file);
+  const auto pictures = readPictures(recording, options.camera->camera, kPictures);
+  const Feeder feeder(device, options.camera->camera);
+  feeder.send(pictures[0]);
+  const auto source = openV4l2Camera(device, options);
+  TrackOptions defaults;
+  defaults.threads = 1;
+  const auto models = loadTrackerModels(defaults);
+  std::puts("tracking: models loaded");
+  Tracker live(models, source->info().camera, trackerConfig(defaults));
+  Recorder recorder("/tmp/recorded", source->info(), true);
+  LiveLoop loop(*source, live, &recorder);
+  Collector collector;
+  loop.addSink(collector);
+  std::atomic<bool> fed{false};
+  std::thread feeding([&] {
+    feed(feeder, pictures, collector);
+    fed = true;
+  });
+  loop.run({0, [&] { return fed.load(); }});
+  feeding.join();
+  recorder.finish(loop.figures().missing);
+
+  const auto recorded = openRecording("/tmp/recorded");
+  Tracker again(models, recorded->info().camera, trackerConfig(defaults));
+  DepthFrame frame;
+  std::size_t compared = 0;
+  double largest_m = 0;
+  for (std::size_t i = 0; i < recorded->frameCount(); ++i) {
+    const auto seen = collector.joints().find(recorded->frameNumber(i));
+    if (seen == collector.joints().end()) continue;
+    recorded->read(i, frame);
+    const TrackedFrame& tracked = again.process(frame);
+    largest_m = std::max(largest_m, (tracked.joints_camera - seen->second).cwiseAbs().maxCoeff());
+    ++compared;
+  }
+  const Durations::Summary latency = loop.figures().latency.summary();
+  std::printf(
+      "tracking: %zu frames live, %d with a pose, latency p50 %.0f ms p99 %.0f ms; replayed %zu, largest difference "
+      "of a joint %.9f m\n",
+      collector.joints().size(), collector.tracking(), latency.p50, latency.p99, compared, largest_m);
+  require(compared == collector.joints().size(), "frames that were tracked are missing in the recording");
+  require(static_cast<int>(compared) >= kPictures / 2, "too few frames came");
+  require(2 * collector.tracking() > static_cast<int>(compared), "nobody was tracked");
+  require(largest_m < kSameJoint_m, "live and replay differ");
+}
+
+}  // namespace
+}  // namespace depthmocap
+
+int main(int argc, char** argv) {
+  try {
+    depthmocap::require(argc >= 4, "usage: guest_tracking LOOPBACK RECORDING CAMERA.json");
+    depthmocap::trackLive(argv[1], argv[2], argv[3]);
+    std::puts("GUEST OK");
+    return 0;
+  } catch (const std::exception& error) {
+    std::printf("GUEST FAILED: %s\n", error.what());
+    return 1;
+  }
+}
