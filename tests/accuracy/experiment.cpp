@@ -3,14 +3,17 @@
 // pixel, exact markers), with another search or local model, with disturbed frames.
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/run_stats.h"
 #include "apps/track_options.h"
@@ -32,6 +35,15 @@ namespace fs = std::filesystem;
 
 constexpr int kSurfacePoints = 1500;
 
+constexpr std::array<std::pair<const char*, double MapConfig::*>, 6> kWeights = {{
+    {"lambda-prior", &MapConfig::lambda_prior},
+    {"lambda-marker", &MapConfig::lambda_marker},
+    {"lambda-smooth", &MapConfig::lambda_smooth},
+    {"lambda-surface", &MapConfig::lambda_surface},
+    {"sigma-surface", &MapConfig::sigma_surface_m},
+    {"velocity-share", &MapConfig::velocity_share},
+}};
+
 struct ExperimentOptions {
   fs::path recording;
   TrackOptions track;
@@ -42,6 +54,7 @@ struct ExperimentOptions {
   int neighbours = 0;  // K alone, 0 = chosen a frame
   int dims = 0;        // B alone, 0 = chosen a frame
   int candidates = 0;  // of the search, 0 = the default
+  MapConfig weights;   // of equation (5); NaN = the tracker's
   Disturbance disturbance;
 };
 
@@ -83,6 +96,9 @@ TrackerConfig configOf(const ExperimentOptions& o) {
   if (o.neighbours > 0) config.prior.neighbours = {o.neighbours};
   if (o.dims > 0) config.prior.dims = {o.dims};
   if (o.candidates > 0) config.search.candidates = o.candidates;
+  for (const auto& [name, field] : kWeights) {
+    if (!std::isnan(o.weights.*field)) config.solve.*field = o.weights.*field;
+  }
   return config;
 }
 
@@ -155,6 +171,10 @@ void addOptions(CLI::App& app, ExperimentOptions& o) {
   app.add_option("--neighbours", o.neighbours, "K of the local model; otherwise chosen for each frame");
   app.add_option("--dims", o.dims, "B of the local model; otherwise chosen for each frame");
   app.add_option("--candidates", o.candidates, "Poses that the index proposes");
+  for (const auto& [name, field] : kWeights) {
+    app.add_option(std::string("--") + name, o.weights.*field,
+                   "Of equation (5), see MapConfig; otherwise the tracker's");
+  }
   app.add_option("--occlude", o.disturbance.occluded_share, "Share of the actor hidden by a board")
       ->check(CLI::Range(0.0, 0.95));
   app.add_option("--occluder", o.disturbance.occluder, "Where the board comes from")
@@ -167,6 +187,7 @@ void addOptions(CLI::App& app, ExperimentOptions& o) {
 int run(int argc, char** argv) {
   CLI::App app{"Tracks a recording for a measurement."};
   ExperimentOptions options;
+  for (const auto& [name, field] : kWeights) options.weights.*field = std::numeric_limits<double>::quiet_NaN();
   addOptions(app, options);
   CLI11_PARSE(app, argc, argv);
   experiment(options);

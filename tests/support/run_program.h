@@ -20,10 +20,10 @@ inline std::string quoted(const std::filesystem::path& path) {
   return word.append(path.string()).append("'");
 }
 
-// Runs the built program with arguments as a shell takes them.
-inline ProgramResult runProgram(const std::string& arguments) {
+// Runs the built program, or another one, with arguments as a shell takes them.
+inline ProgramResult runProgram(const std::string& arguments, const std::string& program = DEPTHMOCAP_PROGRAM) {
   const TemporaryFolder folder;
-  const std::string command = "\"" DEPTHMOCAP_PROGRAM "\" " + arguments + " >'" + (folder / "out").string() + "' 2>'" +
+  const std::string command = "\"" + program + "\" " + arguments + " >'" + (folder / "out").string() + "' 2>'" +
                               (folder / "err").string() + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(folder / "out"), readBytes(folder / "err")};
