@@ -1,6 +1,7 @@
 #include "libtracker/segment/choose_person.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace depthmocap {
 
@@ -31,10 +32,11 @@ constexpr float kPanelNoise_per_m = 0.0015F;  // and what depth noise adds, time
 constexpr float kCutBySideShare = 0.5F;       // who is half out of the view is less likely the actor
 constexpr float kNearExpected_m = 0.5F;
 constexpr float kExpectedReach_m = 1.0F;  // from the expected place,
-constexpr float kPace_m_s = 1.2F;         // and more the longer the actor was not seen
+constexpr float kPace_m_s = 3.0F;  // and more the longer the actor was not seen: after a second it is the whole room
 constexpr float kSomebodyElse = 0.02F;
 constexpr int kMinActorCells = 12;  // who is known may be hidden for the most part
-constexpr float kRemnant = 0.25F;   // of the usual area; what is left may be a hand that was taken for the actor's
+constexpr float kAlike = 0.1F;  // of the actor's usual looks; who has less is a chair rather than the actor come back
+constexpr float kRemnant = 0.25F;  // of the usual area; what is left may be a hand that was taken for the actor's
 
 // 1 up to `full_at`, falling to kThingShare at `thing_at`.
 float likeness(float value, float full_at, float thing_at) {
@@ -100,6 +102,8 @@ Choice choosePerson(const std::vector<Component>& components, const SegmentConfi
     if (sure) {
       score *= kSomebodyElse;
     } else if (context.expected != nullptr) {
+      const bool is_known = !std::isinf(context.expected->unseen_s);
+      if (is_known && score < kAlike * context.usual_score) continue;
       score *= nearness(components[k], *context.expected);
     }
     if (score <= best) continue;
