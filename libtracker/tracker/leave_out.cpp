@@ -38,6 +38,7 @@ constexpr std::array<OptionalPart, 9> kParts = {{
 
 std::vector<std::string> optionalParts() {
   std::vector<std::string> names;
+  names.reserve(kParts.size());
   for (const OptionalPart& part : kParts) names.emplace_back(part.name);
   return names;
 }
