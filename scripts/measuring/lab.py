@@ -14,6 +14,7 @@ import sys
 import threading
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+QUICK_FRAMES = 40
 DATA = pathlib.Path(os.environ.get("DEPTHMOCAP_DATA", ROOT.parent / "shared" / "data"))
 
 
@@ -71,6 +72,10 @@ class Lab:
         if check and result.returncode != 0:
             raise RuntimeError(f"failed: {' '.join(command)}\n{result.stderr}")
         return result
+
+    def frames(self, most):
+        """Frames of a recording to track."""
+        return min(most, QUICK_FRAMES) if self.quick else most
 
     def map(self, function, items):
         """function(item) for all, several at a time, in order."""
