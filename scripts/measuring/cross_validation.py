@@ -40,7 +40,7 @@ def section(lab):
         picked = [t for t in chosen if kinds is None or t.kind in kinds]
         rows.append(row((label,), {body: [results[t, body] for t in picked] for body in BODIES}, None))
     lines = [f"All {len(HELD_OUT)} motions are left out of the pose database at once, which is at least as hard as one at a "
-             "time; the database keeps the other takes of the same performers. Rendered with the noise of Kinect v1 at 30 "
+             "time; the database keeps the other takes of the same performers. The forest has seen none of them but 14_24. Rendered with the noise of Kinect v1 at 30 "
              f"frames a second, up to {lab.frames(FRAMES)} frames each, all motions with different bodies. Columns: an average body whose size "
              "is fitted while tracking (as the program does by itself) | a body calibrated on a T-pose | the body that was "
              "rendered. \"Observable\" leaves out the twist of upper arms and thighs while elbow or knee are bent by less than "
