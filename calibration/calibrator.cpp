@@ -225,6 +225,7 @@ CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frame
                                       const std::vector<PoseObservation>& others) {
   const GoodFrame& first = *frames.front();
   std::vector<std::vector<CloudPoint>> clouds;
+  clouds.reserve(frames.size());
   for (const GoodFrame* frame : frames) clouds.push_back(frame->cloud);
   shown.limbs = fitLimbs(clouds, first.outline);
   Pose q;
