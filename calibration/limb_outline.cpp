@@ -62,6 +62,7 @@ std::vector<Slab> slabsOf(const std::vector<Eigen::Vector3f>& points, const Vect
 std::pair<double, double> extentAlong(const std::vector<Eigen::Vector3f>& points, const Vector3d& axis,
                                       const Vector3d& origin) {
   std::vector<double> along;
+  along.reserve(points.size());
   for (const auto& p : points) along.push_back(axis.dot(p.cast<double>() - origin));
   const double low = quantile(along, kTrimmedEnds);
   return {low, quantile(along, 1.0 - kTrimmedEnds)};

@@ -257,6 +257,7 @@ std::vector<NodeSplit> LevelSearch::search(const std::vector<OpenNode>& open, st
   Random random(seed + static_cast<std::uint64_t>(level), kOffsetStream);
   offsets_ = drawOffsets(options_.features, random);
   std::vector<std::uint32_t> before;  // samples of each node on the ranks before this one
+  before.reserve(open.size());
   for (const OpenNode& node : open) before.push_back(static_cast<std::uint32_t>(node.samples.size()));
   ranks_.sumBefore(before);
   std::vector<NodeSplit> splits;
