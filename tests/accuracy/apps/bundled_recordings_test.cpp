@@ -17,8 +17,9 @@ json allLimits() {
 }
 
 std::vector<std::string> names() {
+  const json all = allLimits();
   std::vector<std::string> result;
-  for (const auto& [name, limits] : allLimits().items()) result.push_back(name);
+  for (const auto& [name, limits] : all.items()) result.push_back(name);
   return result;
 }
 
