@@ -41,7 +41,7 @@ struct TrackOptions {
   int threads = 2;
   std::string method = "full";
   std::vector<std::string> without;  // parts of the method, see leaveOut()
-  double assumed_stature_m = 0;  // [m] 0 = the tracker's default
+  double assumed_stature_m = 0;      // [m] 0 = the tracker's default
 };
 
 void addTrackOptions(CLI::App& command, TrackOptions& options);
