@@ -1,6 +1,7 @@
 #include "forest/train/forest_trainer.h"
 
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,16 @@ std::string fingerprint(const TrainingImageSource& source, const ForestTrainingO
       o.tree.node_samples, o.tree.batch_samples, o.trees, o.seed);
 }
 
+// Ranks at different places would wait for each other for ever.
+void checkSameStart(const std::vector<TrainedTree>& trees, Communicator& ranks) {
+  std::int64_t nodes = 0;
+  for (const TrainedTree& tree : trees) nodes += static_cast<std::int64_t>(tree.nodes.size());
+  std::int64_t of_all = nodes;
+  ranks.sum(std::span(&of_all, 1));
+  if (of_all == nodes * ranks.size()) return;
+  throw Error("not every rank reads the same checkpoint", "resume", "keep it in a folder that all machines share");
+}
+
 }  // namespace
 
 void ForestTrainingOptions::validate() const {
@@ -45,6 +56,7 @@ std::vector<TrainedTree> trainForest(TrainingImageSource& source, Communicator& 
   std::vector<TrainedTree> trees;
   if (options.resume) trees = loadCheckpoint(options.checkpoint, identity);
   trees.resize(static_cast<std::size_t>(options.trees));
+  checkSameStart(trees, ranks);
 
   ImageStore images(source, {ranks.rank(), ranks.size()}, options.seed, options.memory_bytes, options.threads,
                     [&](double done) { progress("rendering", kRenderShare * done); });

@@ -32,8 +32,8 @@ using TrainingProgress = std::function<void(const std::string& stage, double don
 
 // Trains the trees one after the other, on every rank the same ones. Each rank has its share of the images; the first
 // writes the checkpoint. The same trees for any number of ranks and threads, and whether interrupted or not.
-// Throws Error for options, the source's failures, and a checkpoint that cannot be written or belongs to another
-// training.
+// The checkpoint is read by all ranks. Throws Error for options, the source's failures, and a checkpoint that cannot be
+// written or belongs to another training.
 std::vector<TrainedTree> trainForest(TrainingImageSource& source, Communicator& ranks,
                                      const ForestTrainingOptions& options, const TrainingProgress& progress);
 

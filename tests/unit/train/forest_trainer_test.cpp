@@ -195,6 +195,19 @@ TEST_F(ForestCheckpoint, ResumedTrainingGivesTheSameTrees) {
   EXPECT_THROW(train(options), Error);  // another training's checkpoint
 }
 
+// The first of two ranks; the other one has three nodes already.
+class RankBesideOneThatIsAhead : public SingleCommunicator {
+ public:
+  [[nodiscard]] int size() const override { return 2; }
+  void sum(std::span<std::int64_t> numbers) override { numbers[0] += 3; }
+};
+
+TEST_F(ForestCheckpoint, RanksThatStartAtDifferentPlacesAreAnError) {
+  test::DiscFigures source(5, 1);
+  RankBesideOneThatIsAhead rank;
+  EXPECT_THROW(trainForest(source, rank, smallOptions(), kSilent), Error);
+}
+
 TEST_F(ForestCheckpoint, DamagedCheckpointIsAnError) {
   ForestTrainingOptions options = smallOptions();
   options.checkpoint = path_;
