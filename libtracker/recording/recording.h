@@ -45,7 +45,10 @@ std::unique_ptr<RecordingReader> openRecording(const std::filesystem::path& path
 // file system, throws Error.
 class RecordingWriter {
  public:
-  RecordingWriter(const std::filesystem::path& path, const RecordingInfo& info);
+  // WithFirstFrame: until its first frame is written, the folder's name ends in ".partial", so that whatever ends the
+  // program, a recording can be opened. One without a frame is removed at the end.
+  enum class Appears { AtOnce, WithFirstFrame };
+  RecordingWriter(const std::filesystem::path& path, const RecordingInfo& info, Appears appears = Appears::AtOnce);
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;

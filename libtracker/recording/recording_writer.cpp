@@ -21,11 +21,19 @@ namespace {
 constexpr double kLargestStep = 65535.0;
 constexpr double kTimeSteps = 1e6;  // per second, as many as frames.csv shows
 
-void makeFolder(const fs::path& folder) {
+void refuseToOverwrite(const fs::path& folder, const std::string& advice) {
   std::error_code failure;
   if (fs::exists(folder, failure) && !(fs::is_directory(folder, failure) && fs::is_empty(folder, failure))) {
-    throw Error("exists already and is not overwritten", folder.string(), "remove it or name a new folder");
+    throw Error("exists already and is not overwritten", folder.string(), advice);
   }
+}
+
+fs::path waitingName(fs::path folder) {
+  return folder += ".partial";
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code failure;
   fs::create_directories(folder / "depth", failure);
   if (failure) throw Error("cannot be created: " + failure.message(), folder.string());
 }
@@ -38,18 +46,29 @@ std::uint16_t toSteps(float depth_m, double depth_unit_m) {
 }  // namespace
 
 struct RecordingWriter::Impl {
-  fs::path folder;
+  Impl() = default;
+  ~Impl() {
+    std::error_code unused;
+    if (waiting) fs::remove_all(folder, unused);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  fs::path name;         // of the recording
+  fs::path folder;       // where it is now
+  bool waiting = false;  // for the first frame, in a folder of another name
   RecordingInfo info;
-  fs::path index_file;
   std::int64_t last_frame = -1;
   double last_time_s = 0;
   Image<std::uint16_t> raw;
 
   void append(const std::string& row) const;
+  void appear();
 };
 
 // Opened for each row: a row is in the file when write() returns, and a row that did not fit is taken back.
 void RecordingWriter::Impl::append(const std::string& row) const {
+  const fs::path index_file = folder / "frames.csv";
   std::error_code unused;
   const std::uintmax_t size_before = fs::exists(index_file, unused) ? fs::file_size(index_file, unused) : 0;
   std::FILE* file = std::fopen(index_file.c_str(), "ab");
@@ -61,12 +80,27 @@ void RecordingWriter::Impl::append(const std::string& row) const {
   throw Error(std::string("cannot be written: ") + std::strerror(reason), index_file.string());
 }
 
-RecordingWriter::RecordingWriter(const fs::path& path, const RecordingInfo& info) : impl_(std::make_unique<Impl>()) {
-  impl_->folder = path;
+void RecordingWriter::Impl::appear() {
+  std::error_code failure;
+  fs::rename(folder, name, failure);
+  if (failure) throw Error("cannot be created: " + failure.message(), name.string());
+  folder = name;
+  waiting = false;
+}
+
+RecordingWriter::RecordingWriter(const fs::path& path, const RecordingInfo& info, Appears appears)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->name = path.has_filename() ? path : path.parent_path();  // "take/" is "take"
   impl_->info = info;
-  impl_->index_file = path / "frames.csv";
-  makeFolder(path);
-  writeRecordingHeader(path / "recording.json", info);
+  impl_->folder = impl_->name;
+  refuseToOverwrite(impl_->name, "remove it or name a new folder");
+  if (appears == Appears::WithFirstFrame) {
+    impl_->folder = waitingName(impl_->name);
+    refuseToOverwrite(impl_->folder, "a recording that ended before its first frame left it; remove it");
+  }
+  makeFolder(impl_->folder);
+  impl_->waiting = appears == Appears::WithFirstFrame;
+  writeRecordingHeader(impl_->folder / "recording.json", info);
   impl_->append("frame,time_s,file\n");
 }
 
@@ -89,6 +123,7 @@ void RecordingWriter::write(const DepthFrame& frame) {
   const std::string name = fmt::format("depth/{:06d}.png", frame.frame);
   writePng16(impl_->folder / name, impl_->raw);
   impl_->append(fmt::format("{},{:.6f},{}\n", frame.frame, time_s, name));
+  if (impl_->waiting) impl_->appear();
   impl_->last_frame = frame.frame;
   impl_->last_time_s = time_s;
 }

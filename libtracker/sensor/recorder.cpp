@@ -27,7 +27,7 @@ Recorder::Recorder(std::filesystem::path folder, const RecordingInfo& info, bool
       info_(info),
       wait_when_full_(wait_when_full),
       capacity_(queue_frames > 0 ? queue_frames : queueLength(info.fps)),
-      writer_(std::make_unique<RecordingWriter>(folder_, info_)),
+      writer_(std::make_unique<RecordingWriter>(folder_, info_, RecordingWriter::Appears::WithFirstFrame)),
       thread_([this] { run(); }) {}
 
 Recorder::~Recorder() {
@@ -93,6 +93,11 @@ void Recorder::join() {
 
 void Recorder::finish(std::int64_t missing) {
   join();
+  if (status_.written > 0) noteWhatIsMissing(missing);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void Recorder::noteWhatIsMissing(std::int64_t missing) const {
   RecordingInfo info = info_;
   auto header = nlohmann::json::parse(info.extra_json);
   header["recorder"] = {{"written", status_.written}, {"dropped", status_.dropped}, {"missing", missing}};
@@ -102,7 +107,6 @@ void Recorder::finish(std::int64_t missing) {
   } catch (const Error&) {
     if (!failure_) throw;  // otherwise the disk is full, which the first failure says better
   }
-  if (failure_) std::rethrow_exception(failure_);
 }
 
 RecorderStatus Recorder::status() const {

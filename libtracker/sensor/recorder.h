@@ -22,7 +22,8 @@ struct RecorderStatus {
 
 // Writes frames to a recording folder on a thread of its own. Never holds up the capture: frames wait in a queue of one
 // second, and one that finds it full is dropped, counted, and leaves a gap in the recording's frame numbers. At the
-// end, recording.json says how many are missing. Whatever ends the program, the folder can be read up to what waited.
+// end, recording.json says how many are missing. The folder appears with the first frame; whatever ends the program, it
+// can be read up to what waited.
 class Recorder {
  public:
   // Refuses to overwrite a recording. `wait_when_full`: for sources that wait, so that nothing need be dropped.
@@ -44,6 +45,7 @@ class Recorder {
   void run();
   void writeQueued(RecordingWriter& writer);
   void join();
+  void noteWhatIsMissing(std::int64_t missing) const;
 
   std::filesystem::path folder_;
   RecordingInfo info_;

@@ -1,12 +1,13 @@
 // Runs inside the guest: reads real V4L2 devices of a real kernel with our code, and checks every picture.
 //
 // Usage: guest_check LOOPBACK RECORDING CAMERA.json VIVID
-//   LOOPBACK: a v4l2loopback device; RECORDING is written to it by a thread and must come back picture by picture.
+//   LOOPBACK: a v4l2loopback device; RECORDING is written to it and must come back picture by picture, in each format.
 //   VIVID: the kernel's test camera; streams Y16, then is unplugged.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -18,20 +19,80 @@
 #include "libtracker/recording/recording_header.h"
 #include "libtracker/sensor/capture.h"
 #include "libtracker/sensor/recorder.h"
+#include "libtracker/sensor/v4l2_format.h"
 #include "libtracker/sensor/v4l2_source.h"
 #include "tests/qemu/feeder.h"
 
 namespace depthmocap {
 namespace {
 
-// Each picture is sent when the one before has arrived: an emulated processor has a pace of its own.
-void checkLoopback(const std::string& device, const std::string& recording, const std::string& camera_file) {
-  constexpr int kPictures = 60;
-  constexpr std::chrono::milliseconds kStep(10);
-  constexpr int kPatience = 500;  // steps
+constexpr unsigned kTenBits = 0x3FF;
+
+// What a camera of that format sends for these steps, by the kernel's documentation: INZI is a plane of infrared before
+// one of depth; Y10B is ten bits a pixel without gaps, the most significant ones first.
+std::vector<std::uint8_t> bytesOf(std::uint32_t fourcc, const Picture16& steps) {
+  const auto* plane = reinterpret_cast<const std::uint8_t*>(steps.data.data());
+  std::vector<std::uint8_t> bytes;
+  if (fourcc != V4L2_PIX_FMT_Y10BPACK) {
+    if (fourcc == V4L2_PIX_FMT_INZI) bytes.assign(2 * steps.data.size(), 0x03);
+    bytes.insert(bytes.end(), plane, plane + 2 * steps.data.size());
+    return bytes;
+  }
+  std::uint32_t waiting = 0;
+  int bits = 0;
+  for (const std::uint16_t step : steps.data) {
+    waiting = waiting << 10U | (step & kTenBits);
+    for (bits += 10; bits >= 8; bits -= 8) bytes.push_back(static_cast<std::uint8_t>(waiting >> (bits - 8)));
+  }
+  return bytes;
+}
+
+bool shows(const DepthFrame& frame, const Picture16& steps) {
+  for (std::size_t p = 0; p < steps.data.size(); ++p) {
+    if (frame.depth.data[p] != static_cast<float>(steps.data[p] * 0.001)) return false;
+  }
+  return true;
+}
+
+SensorFrame nextFrame(DepthSource& source) {
+  SensorFrame frame;
+  for (int i = 0; i < 100; ++i) {
+    const SourceState state = source.next(frame, std::chrono::milliseconds(100));
+    if (state == SourceState::Frame) return frame;
+    require(state == SourceState::Waiting, "the loopback device failed: " + source.problem());
+  }
+  throw std::runtime_error("a picture did not come");
+}
+
+void checkFormat(const std::string& device, std::uint32_t fourcc, const SourceOptions& options,
+                 std::vector<Picture16> pictures) {
+  if (fourcc == V4L2_PIX_FMT_Y10BPACK) {
+    for (Picture16& picture : pictures) {
+      for (std::uint16_t& step : picture.data) step = static_cast<std::uint16_t>(std::min(step / 8U, kTenBits - 1));
+    }
+  }
+  const Feeder feeder(device, options.camera->camera, fourcc);
+  feeder.send(bytesOf(fourcc, pictures[0]));
+  const auto source = openV4l2Camera(device, options);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (i > 0) feeder.send(bytesOf(fourcc, pictures[i]));
+    require(shows(nextFrame(*source).depth, pictures[i]), "picture " + std::to_string(i) + " came changed");
+  }
+  std::printf("loopback: %zu pictures %s unchanged\n", pictures.size(), source->info().note.c_str());
+}
+
+void checkFormats(const std::string& device, const std::string& recording, const std::string& camera_file) {
   SourceOptions options;
   options.camera = readRecordingHeader(camera_file);
-  const auto pictures = readPictures(recording, options.camera->camera, kPictures);
+  options.depth_unit_m = 0.001;  // also of Y10B: its steps as they are
+  const auto pictures = readPictures(recording, options.camera->camera, 5);
+  for (const std::uint32_t fourcc : depthFourccs()) checkFormat(device, fourcc, options, pictures);
+}
+
+void checkLoopback(const std::string& device, const std::string& recording, const std::string& camera_file) {
+  SourceOptions options;
+  options.camera = readRecordingHeader(camera_file);
+  const auto pictures = readPictures(recording, options.camera->camera, 60);
   const Feeder feeder(device, options.camera->camera);
   feeder.send(pictures[0]);
   const auto source = openV4l2Camera(device, options);
@@ -47,11 +108,7 @@ void checkLoopback(const std::string& device, const std::string& recording, cons
         return true;
       },
       [] {});
-  for (const auto& picture : pictures) {
-    const int before = arrived;
-    if (&picture != pictures.data()) feeder.send(picture);  // the first one was sent above
-    for (int i = 0; i < kPatience && arrived == before; ++i) std::this_thread::sleep_for(kStep);
-  }
+  sendOneByOne(feeder, pictures, arrived);
   capture.stop();
   recorder.finish(capture.status().missing);
   const auto recorded = openRecording("/tmp/recorded");
@@ -59,17 +116,12 @@ void checkLoopback(const std::string& device, const std::string& recording, cons
   std::size_t expected = 0;
   for (std::size_t i = 0; i < recorded->frameCount(); ++i) {
     recorded->read(i, frame);
-    const auto is = [&frame](const Image<std::uint16_t>& picture) {
-      for (std::size_t p = 0; p < picture.data.size(); ++p) {
-        if (frame.depth.data[p] != static_cast<float>(picture.data[p] * 0.001)) return false;
-      }
-      return true;
-    };
+    const auto is = [&frame](const Picture16& picture) { return shows(frame, picture); };
     if (expected > 0 && is(pictures[expected - 1])) continue;  // the loopback gave it again
     const auto found = std::find_if(pictures.begin(), pictures.end(), is) - pictures.begin();
     require(expected < pictures.size() && is(pictures[expected]),
             "picture " + std::to_string(expected) + " did not come; in its place came " +
-                (found < kPictures ? std::to_string(found) : std::string("one that was never sent")));
+                (found < std::ssize(pictures) ? std::to_string(found) : std::string("one that was never sent")));
     ++expected;
   }
   require(expected == pictures.size(), "pictures at the end are missing");
@@ -129,6 +181,7 @@ void checkTestCamera(const std::string& device) {
 int main(int argc, char** argv) {
   try {
     depthmocap::require(argc == 5, "usage: guest_check LOOPBACK RECORDING CAMERA.json VIVID");
+    depthmocap::checkFormats(argv[1], argv[2], argv[3]);
     depthmocap::checkLoopback(argv[1], argv[2], argv[3]);
     depthmocap::checkTestCamera(argv[4]);
     std::puts("GUEST OK");

@@ -18,8 +18,6 @@ namespace depthmocap {
 namespace {
 
 constexpr int kPictures = 12;
-constexpr std::chrono::milliseconds kStep(20);
-constexpr int kPatience = 3000;        // steps; an emulated processor takes seconds for a frame
 constexpr double kSameJoint_m = 1e-6;  // times are written to the microsecond
 
 class Collector : public LiveSink {
@@ -37,15 +35,6 @@ class Collector : public LiveSink {
   std::map<std::int64_t, JointPositions> joints_;
   int tracking_ = 0;
 };
-
-// Each picture is sent when the one before has been tracked.
-void feed(const Feeder& feeder, const std::vector<Image<std::uint16_t>>& pictures, const Collector& collector) {
-  for (const auto& picture : pictures) {
-    const int before = collector.count;
-    feeder.send(picture);
-    for (int i = 0; i < kPatience && collector.count == before; ++i) std::this_thread::sleep_for(kStep);
-  }
-}
 
 void trackLive(const std::string& device, const std::string& recording, const std::string& camera_file) {
   SourceOptions options;
@@ -65,7 +54,7 @@ void trackLive(const std::string& device, const std::string& recording, const st
   loop.addSink(collector);
   std::atomic<bool> fed{false};
   std::thread feeding([&] {
-    feed(feeder, pictures, collector);
+    sendOneByOne(feeder, pictures, collector.count);
     fed = true;
   });
   loop.run({0, [&] { return fed.load(); }});

@@ -70,6 +70,21 @@ TEST_F(RecorderTest, RefusesToOverwrite) {
   EXPECT_NE(errorOf([&] { Recorder(folder_ / "rec", info_, false); }).find("not overwritten"), std::string::npos);
 }
 
+TEST_F(RecorderTest, AppearsWithTheFirstFrame) {
+  Recorder recorder(folder_ / "rec", info_, true);
+  EXPECT_FALSE(fs::exists(folder_ / "rec")) << "a recording without a frame could not be opened";
+  EXPECT_NE(errorOf([&] { Recorder(folder_ / "rec", info_, true); }).find("rec.partial"), std::string::npos);
+  recorder.push(sensorFrame(info_, 0));
+  while (recorder.status().written < 1) std::this_thread::yield();
+  EXPECT_EQ(openRecording(folder_ / "rec")->frameCount(), 1U);
+  EXPECT_FALSE(fs::exists(folder_ / "rec.partial"));
+}
+
+TEST_F(RecorderTest, LeavesNothingWithoutAFrame) {
+  Recorder(folder_ / "rec/", info_, true).finish(0);
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
+}
+
 TEST_F(RecorderTest, EndsInGoodOrderWhenWritingFails) {
   Recorder recorder(folder_ / "rec", info_, true, 4);
   for (int i = 0; i < 5; ++i) recorder.push(sensorFrame(info_, i));
