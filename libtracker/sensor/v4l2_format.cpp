@@ -25,13 +25,18 @@ std::size_t pixelsOf(const V4l2Format& format) {
   return static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
 }
 
+// Of a row of one plane. INZI's rows have no gaps, and what drivers call a line of it is one of both planes.
+std::size_t rowBytes(const V4l2Format& format) {
+  return static_cast<std::size_t>(format.fourcc == V4L2_PIX_FMT_INZI ? 2 * format.width : format.bytes_per_line);
+}
+
 std::size_t planeBytes(const V4l2Format& format) {
-  return static_cast<std::size_t>(format.bytes_per_line) * static_cast<std::size_t>(format.height);
+  return rowBytes(format) * static_cast<std::size_t>(format.height);
 }
 
 void copyRows(const V4l2Format& format, const std::uint8_t* bytes, Image<std::uint16_t>& steps) {
   for (int y = 0; y < format.height; ++y) {
-    std::memcpy(&steps.at(0, y), bytes + static_cast<std::size_t>(y) * static_cast<std::size_t>(format.bytes_per_line),
+    std::memcpy(&steps.at(0, y), bytes + static_cast<std::size_t>(y) * rowBytes(format),
                 2 * static_cast<std::size_t>(format.width));
   }
 }

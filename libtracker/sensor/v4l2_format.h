@@ -14,7 +14,7 @@ struct V4l2Format {
   std::uint32_t fourcc = 0;
   int width = 0;           // [px]
   int height = 0;          // [px]
-  int bytes_per_line = 0;  // >= 2 * width; Y10B has no lines
+  int bytes_per_line = 0;  // of Z16 and Y16, >= 2 * width; the others have no gaps between rows
 };
 
 // The pixel formats that hold depth, the best first: Z16 and INZI (infrared, then depth) say so, Y10B is the Kinect of

@@ -136,7 +136,7 @@ class FakeV4l2 : public V4l2System {
     v4l2_pix_format& pix = f.fmt.pix;
     pix.width = width;
     pix.height = height;
-    pix.bytesperline = pix.pixelformat == V4L2_PIX_FMT_Y10BPACK ? 0 : 2 * width + padding;
+    pix.bytesperline = bytesPerLine(pix.pixelformat);
     pix.sizeimage = pictureBytes(pix.pixelformat);
     return 0;
   }
@@ -154,9 +154,12 @@ class FakeV4l2 : public V4l2System {
     return fillFormat(f);
   }
   [[nodiscard]] std::uint32_t pictureBytes(std::uint32_t fourcc) const {
-    const std::uint32_t plane = (2 * width + padding) * height;
-    if (fourcc == V4L2_PIX_FMT_Y10BPACK) return (width * height * 10 + 7) / 8;
-    return fourcc == V4L2_PIX_FMT_INZI ? 2 * plane : plane;
+    return fourcc == V4L2_PIX_FMT_Y10BPACK ? (width * height * 10 + 7) / 8 : bytesPerLine(fourcc) * height;
+  }
+  // As gspca and uvcvideo have it: bits a pixel times width.
+  [[nodiscard]] std::uint32_t bytesPerLine(std::uint32_t fourcc) const {
+    if (fourcc == V4L2_PIX_FMT_Y10BPACK) return width * 10 / 8;
+    return fourcc == V4L2_PIX_FMT_INZI ? 4 * width : 2 * width + padding;
   }
   int rate(v4l2_streamparm& p) const {
     if (fps == 0) return -ENOTTY;

@@ -25,7 +25,8 @@ TEST(V4l2Format, ReadsSixteenBitRowsWithPadding) {
 }
 
 TEST(V4l2Format, ReadsTheSecondPlaneOfInfraredAndDepth) {
-  const V4l2Format format{V4L2_PIX_FMT_INZI, 2, 1, 4};
+  // A line is said to have four bytes a pixel, but first come all rows of infrared.
+  const V4l2Format format{V4L2_PIX_FMT_INZI, 1, 2, 4};
   EXPECT_EQ(pictureBytes(format), 8U);
   EXPECT_EQ(unpacked(format, {9, 9, 9, 9, 1, 2, 3, 4}), (Steps{0x0201, 0x0403}));
 }

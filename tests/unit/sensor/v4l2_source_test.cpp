@@ -163,6 +163,18 @@ TEST_F(V4l2SourceTest, ReadsTheKinectsTenBits) {
   EXPECT_FLOAT_EQ(frame_.depth.depth.at(0, 0), static_cast<float>(kinectMillimetres(2 * 0x191) * 0.001));
 }
 
+TEST_F(V4l2SourceTest, ReadsDepthBehindInfrared) {
+  fake_.formats = {V4L2_PIX_FMT_INZI};
+  FakeV4l2::Picture p = picture(0, 500);  // infrared
+  const FakeV4l2::Picture depth = picture(0, 8000);
+  p.bytes.insert(p.bytes.end(), depth.bytes.begin(), depth.bytes.end());
+  fake_.pictures = {p};
+  const auto source = open();
+  ASSERT_EQ(source->next(frame_, kShort), SourceState::Frame);
+  EXPECT_FLOAT_EQ(frame_.depth.depth.at(0, 0), 1.0F);
+  EXPECT_FLOAT_EQ(frame_.depth.depth.at(7, 5), static_cast<float>((8000 + 47) * 0.000125));
+}
+
 TEST_F(V4l2SourceTest, TakesTheSizeNearestTheUsual) {
   fake_.sizes = {{1280, 720}, {640, 480}, {424, 240}};
   EXPECT_EQ(open()->info().camera.height, 480);
