@@ -13,7 +13,7 @@ struct FreeSpaceConfig {
   double margin_m = 0.03;  // [m] (>= 0) the body may reach so far into free space without a penalty
   double sigma_m = 0.05;   // [m] (> 0) of the Lorentzian that weighs a violation by its size
   double weight = 0.3;     // (0, 1] of a small violation, against a surface match
-  int max_matches = 60;    // (0 .. kMaxSurfaceMatches) 0 = off
+  int max_matches = 150;   // (0 .. kMaxSurfaceMatches) 0 = off
   void validate() const;
 };
 

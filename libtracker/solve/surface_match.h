@@ -7,7 +7,7 @@
 
 namespace depthmocap {
 
-inline constexpr int kMaxSurfaceMatches = 240;
+inline constexpr int kMaxSurfaceMatches = 600;
 
 // A measured point and the point of the body's surface that it should lie on.
 struct SurfaceMatch {

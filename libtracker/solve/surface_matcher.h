@@ -17,10 +17,10 @@ struct SurfaceSample {
 
 struct SurfaceMatchConfig {
   double max_distance_m = 0.30;   // [m] (> 0) a sample further from its surface point has no match
-  double match_sigma_m = 0.06;    // [m] (> 0) how far the surface is expected from a sample of its part
+  double match_sigma_m = 0.04;    // [m] (> 0) how far the surface is expected from a sample of its part
   double min_probability = 0.02;  // (0, 1] no part is held less likely: the classifier may be wrong
-  double sigma_m = 0.03;          // [m] (> 0) of the Lorentzian that weighs a match by its distance
-  int max_matches = 180;          // (1 .. kMaxSurfaceMatches)
+  double sigma_m = 0.02;          // [m] (> 0) of the Lorentzian that weighs a match by its distance
+  int max_matches = 450;          // (1 .. kMaxSurfaceMatches)
   void validate() const;
 };
 

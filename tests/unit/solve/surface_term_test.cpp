@@ -48,11 +48,9 @@ struct ChestScene {
   }
 };
 
-TEST(SurfaceTerm, JacobianMatchesDifferences) {
-  Random random(5);
-  const Skeleton skeleton = makeSkeleton(BoneLengths{});
+SurfaceMatches randomMatches(int count, Random& random) {
   SurfaceMatches matches;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < count; ++i) {
     SurfaceMatch match;
     match.model = {static_cast<Bone>(i % kBoneCount), 0.2 * randomVector(random)};
     match.p_world = randomVector(random);
@@ -60,6 +58,47 @@ TEST(SurfaceTerm, JacobianMatchesDifferences) {
     match.weight = random.uniform(0.1, 1.0);
     matches.push_back(match);
   }
+  return matches;
+}
+
+// One residual a match, as the term is defined.
+double plainEnergy(const Skeleton& skeleton, const SurfaceMatches& matches, double lambda, double sigma_m,
+                   const Pose& q) {
+  ForwardKinematics fk;
+  fk.update(skeleton, q);
+  double energy = 0;
+  for (const SurfaceMatch& match : matches) {
+    const double off = match.n_world.dot(fk.position(match.model) - match.p_world);
+    energy += lambda * match.weight * off * off / (2.0 * sigma_m * sigma_m);
+  }
+  return energy;
+}
+
+TEST(SurfaceTerm, EnergyIsThatOfAllMatches) {
+  Random random(6);
+  const Skeleton skeleton = makeSkeleton(BoneLengths{});
+  for (const int count : {1, 17, 100, kMaxSurfaceMatches}) {
+    SurfaceMatches matches = randomMatches(count, random);
+    const Pose q = randomPose(random);
+    ForwardKinematics fk;
+    fk.update(skeleton, q);
+    for (const double noise_m : {1.0, 0.01, 1e-4}) {
+      for (SurfaceMatch& match : matches) {
+        match.p_world = fk.position(match.model) + noise_m * (match.p_world - fk.position(match.model));
+      }
+      SurfaceTerm term(skeleton, &matches, 2.0, 0.03);
+      Eigen::VectorXd r(SurfaceTerm::kRows);
+      term.evaluate(q, r, nullptr);
+      const double plain = plainEnergy(skeleton, matches, 2.0, 0.03, q);
+      EXPECT_NEAR(r.squaredNorm(), plain, 1e-6 * plain + 1e-7) << count << " matches, " << noise_m << " m";
+    }
+  }
+}
+
+TEST(SurfaceTerm, JacobianMatchesDifferences) {
+  Random random(5);
+  const Skeleton skeleton = makeSkeleton(BoneLengths{});
+  const SurfaceMatches matches = randomMatches(40, random);
   SurfaceTerm term(skeleton, &matches, 2.0, 0.03);
   const Eigen::VectorXd q = randomPose(random);
   const auto residual = [&](const Eigen::VectorXd& x) {
