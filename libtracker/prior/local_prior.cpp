@@ -24,6 +24,7 @@ void requireList(const char* field, const std::vector<int>& values, int least, i
 void PriorConfig::validate() const {
   requireList("neighbours", neighbours, 3, kMaxPriorNeighbours);
   requireList("dims", dims, 1, kMaxPriorDims);
+  if (!(residual_rad >= 0)) throw Error("residual_rad must not be negative", "local prior settings");
   if (held_out < 1 || held_out > neighbours.front()) {
     throw Error(fmt::format("held_out = {}, but it must be from 1 to the smallest of neighbours, {}", held_out,
                             neighbours.front()),

@@ -141,6 +141,7 @@ void LocalPriorBuilder::Impl::write(const Model& model, int dims, LocalPrior& pr
   prior = LocalPrior{};
   prior.neighbours = model.neighbours;
   prior.dims = std::min(dims, rank);
+  prior.residual_rad = config.residual_rad;
   for (int i = 0; i < kShapeDofCount; ++i) {
     const int dof = kShapeDofs[static_cast<std::size_t>(i)];
     prior.mean[dof] = model.mean[i];
@@ -159,6 +160,10 @@ void LocalPriorBuilder::build(const PoseDatabase& database, const std::vector<Po
   const int available = std::min(static_cast<int>(neighbours.size()), config.neighbours.back());
   impl.load(database, neighbours, available);
   std::fill(impl.errors.begin(), impl.errors.end(), kImpossible);
+  if (config.residual_rad > 0) {
+    impl.fit(available, impl.models[0]);
+    return impl.write(impl.models[0], kMaxPriorDims, prior);
+  }
   std::size_t model_count = 0;
   while (model_count < config.neighbours.size() && config.neighbours[model_count] <= available) {
     impl.fit(config.neighbours[model_count], impl.models[model_count]);

@@ -8,8 +8,9 @@
 
 namespace depthmocap {
 
-// Builds the local linear model (4) of one frame: PCA over the K nearest poses, unweighted, with K and B chosen by
-// leave-one-out cross-validation.
+// Builds the local model (4) of one frame: PCA over the K nearest poses, unweighted. For the paper's subspace K and B
+// are chosen by leave-one-out cross-validation; a Gaussian (PriorConfig::residual_rad) takes all neighbours and
+// directions, because what hardly varies among the neighbours costs it as much as what lies outside of their span.
 //
 // The criterion. The error of rebuilding a left-out pose by projecting it would fall with every further dimension, so
 // it cannot choose B. Instead each left-out pose must be *predicted*: for every bone in turn, the bone's DoFs are

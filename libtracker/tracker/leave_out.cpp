@@ -22,7 +22,14 @@ void takePaperWeights(TrackerConfig& config) {
   config.solve.velocity_share = paper.velocity_share;
 }
 
-constexpr std::array<OptionalPart, 9> kParts = {{
+// With the weight that is best for the paper's subspace.
+void takePaperPrior(TrackerConfig& config) {
+  constexpr double kSubspaceWeight = 30.0;
+  config.prior = paperConfig().prior;
+  config.solve.lambda_prior = std::min(config.solve.lambda_prior, kSubspaceWeight);
+}
+
+constexpr std::array<OptionalPart, 10> kParts = {{
     {"prior", [](TrackerConfig& c) { c.solve.lambda_prior = 0; }},
     {"smooth", [](TrackerConfig& c) { c.solve.lambda_smooth = 0; }},
     {"limits", [](TrackerConfig& c) { c.solve.lambda_limit = 0; }},
@@ -31,6 +38,7 @@ constexpr std::array<OptionalPart, 9> kParts = {{
     {"sides", [](TrackerConfig& c) { c.policy.expect_sides = false; }},
     {"feet", [](TrackerConfig& c) { c.policy.hold_feet = false; }},
     {"recovery", [](TrackerConfig& c) { c.policy.suspect_rms_m = std::numeric_limits<double>::max(); }},
+    {"gaussian", takePaperPrior},
     {"weights", takePaperWeights},
 }};
 

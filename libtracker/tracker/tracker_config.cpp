@@ -15,15 +15,23 @@ void require(bool holds, const char* rule) {
 
 MapConfig measuredWeights() {
   MapConfig weights;
-  weights.lambda_prior = 30.0;
+  weights.lambda_prior = 100.0;
   weights.lambda_smooth = 20.0;
   weights.velocity_share = 0.8;
   weights.lambda_surface = 2.0;
   return weights;
 }
 
+PriorConfig measuredPrior() {
+  PriorConfig prior;
+  prior.neighbours = {kMaxPriorNeighbours};
+  prior.residual_rad = 0.05;
+  return prior;
+}
+
 TrackerConfig paperConfig() {
   TrackerConfig config;
+  config.prior = PriorConfig{};
   config.solve = MapConfig{};
   config.policy.dense_rounds = 0;
   config.policy.expect_sides = false;

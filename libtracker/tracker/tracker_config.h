@@ -20,7 +20,7 @@ struct TrackPolicy {
   double coast_s = 0.4;          // [s] a pose is carried on without evidence, then the actor is lost
   double absent_s = 2.5;         // [s] (>= coast_s) the lost actor is waited for, then whoever is there is tracked
   int start_poses = 6;           // (>= 1) database poses a global search solves from
-  int dense_rounds = 3;          // (>= 0) of matching depth with the body's surface; 0 = markers only, the paper
+  int dense_rounds = 4;          // (>= 0) of matching depth with the body's surface; 0 = markers only, the paper
   bool expect_sides = true;      // the pose before tells left from right in the classifier's answer; false: the paper
   bool hold_feet = true;         // feet that stand are held where they are; false: the paper
   double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
@@ -32,13 +32,16 @@ struct TrackPolicy {
 // against markers that are centimetres off, and the dense term knows more than the markers.
 MapConfig measuredWeights();
 
+// The local model by measurement: a Gaussian over the most neighbours that the paper takes.
+PriorConfig measuredPrior();
+
 // Every parameter of the tracker; the defaults work without any file.
 struct TrackerConfig {
   SegmentConfig segment;
   ClassifyConfig classify;
   MarkerConfig markers;
   PoseSearchConfig search;
-  PriorConfig prior;
+  PriorConfig prior = measuredPrior();
   MapConfig solve = measuredWeights();
   SurfaceMatchConfig surface;
   FreeSpaceConfig free_space;

@@ -35,16 +35,18 @@ def section(lab):
         for model, n in f["chosen"].items():
             counts[model] = counts.get(model, 0) + n
     total = sum(counts.values())
-    lines += ["The local model: chosen for each frame by cross-validation ("
+    lines += ["The local model: a Gaussian over 50 neighbours, or the paper's subspace, its size chosen for each frame by cross-validation ("
               + ", ".join(f"{model}: {100 * n / total:.0f} %" for model, n in sorted(counts.items(), key=lambda x: -x[1]))
-              + ") against one size for all frames, and the search by its candidates.", ""]
+              + ") or the same for all frames; and the search by its candidates.", ""]
 
     def average(*options, database=None):
         runs = lab.map(lambda t: lab.track(t.render(lab, FRAMES), "--posedb", database or lab.database(HELD_OUT), *t.body.true_body, *options),
                        chosen)
         return [number(mean([r.angles_deg for r in runs]), 2), number(mean([r.joints_mm for r in runs]))]
-    rows = [["K and B chosen for each frame, 512 candidates (default)", *average()]]
-    rows += [[f"K {k}, B {b}", *average("--neighbours", k, "--dims", b)] for k, b in (MODELS[:2] if lab.quick else MODELS)]
+    rows = [["Gaussian, K 50, 512 candidates (default)", *average()]]
+    rows += [[f"Gaussian, K {k}", *average("--neighbours", k)] for k in (15, 30)]
+    rows.append(["subspace, K and B chosen for each frame", *average("--without", "gaussian")])
+    rows += [[f"subspace, K {k}, B {b}", *average("--without", "gaussian", "--neighbours", k, "--dims", b)] for k, b in (MODELS[:2] if lab.quick else MODELS)]
     rows += [[f"{c} candidates", *average("--candidates", c)] for c in (64, 4096)]
     lines += table(["search and local model", "angles [deg]", "joints [mm]"], rows)
     sizes, points = [], []

@@ -8,7 +8,8 @@ FRAMES = 60
 # The parts that are ours, as --without names them, and what they are.
 OURS = {
     "push-in": "markers pushed into the body", "limits": "joint limits", "sides": "expectation of sides",
-    "recovery": "a global search where the fit is poor", "feet": "feet that stand are held", "weights": "our weights", "dense": "dense surface term",
+    "recovery": "a global search where the fit is poor", "feet": "feet that stand are held", "gaussian": "a Gaussian as local model",
+    "weights": "our weights", "dense": "dense surface term",
 }
 
 

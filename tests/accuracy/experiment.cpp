@@ -51,8 +51,8 @@ struct ExperimentOptions {
   double actor_scale = 1;  // of that body or of --actor
   bool true_labels = false;
   bool true_markers = false;
-  int neighbours = 0;  // K alone, 0 = chosen a frame
-  int dims = 0;        // B alone, 0 = chosen a frame
+  int neighbours = 0;  // K alone, 0 = the default
+  int dims = 0;        // B alone, 0 = the default
   int candidates = 0;  // of the search, 0 = the default
   MapConfig weights;   // of equation (5); NaN = the tracker's
   Disturbance disturbance;
@@ -168,8 +168,8 @@ void addOptions(CLI::App& app, ExperimentOptions& o) {
       ->check(CLI::Range(0.5, 2.0));
   app.add_flag("--true-labels", o.true_labels, "Take each pixel's part from truth/labels");
   app.add_flag("--true-markers", o.true_markers, "Take the markers from truth/pose.csv and the true body");
-  app.add_option("--neighbours", o.neighbours, "K of the local model; otherwise chosen for each frame");
-  app.add_option("--dims", o.dims, "B of the local model; otherwise chosen for each frame");
+  app.add_option("--neighbours", o.neighbours, "K of the local model; otherwise the default");
+  app.add_option("--dims", o.dims, "B of the local model without gaussian; otherwise chosen");
   app.add_option("--candidates", o.candidates, "Poses that the index proposes");
   for (const auto& [name, field] : kWeights) {
     app.add_option(std::string("--") + name, o.weights.*field,

@@ -127,7 +127,8 @@ void measure(const std::filesystem::path& recording, const TrackOptions& options
     const Answers found =
         answersOf(queries, [&](const PoseQuery& q, Neighbours& n) { search.search(q, kNeighbours, n); });
     result["search"].push_back(recall(found, exact, count));
-    if (count == config.search.candidates) result["chosen"] = chosenModels(models->database, found, config.prior);
+    if (count == config.search.candidates)
+      result["chosen"] = chosenModels(models->database, found, paperConfig().prior);
   }
   std::cout << result.dump(2) << '\n';
 }

@@ -149,6 +149,7 @@ TEST(LocalPriorBuilder, BasisIsOrthonormalSpansThePosesAndLeavesPlaceAndHeadingO
   ASSERT_EQ(prior.dims, 3);
   const auto P = prior.basis.leftCols<3>();
   EXPECT_LT((P.transpose() * P - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+  EXPECT_EQ(prior.residual_rad, 0);
   EXPECT_EQ(prior.basis.rightCols<kMaxPriorDims - 3>().norm(), 0);
   for (int dof : {+kRootTx, +kRootTy, +kRootTz, +kRootRy}) {
     EXPECT_EQ(prior.mean[dof], 0);
@@ -162,6 +163,25 @@ TEST(LocalPriorBuilder, BasisIsOrthonormalSpansThePosesAndLeavesPlaceAndHeadingO
   }
   EXPECT_NEAR(prior.deviation.squaredNorm(), spread, 1e-6);
   EXPECT_GE(prior.deviation[0], prior.deviation[1]);
+}
+
+TEST(LocalPriorBuilder, AGaussianHoldsTheCovarianceOfAllNeighbours) {
+  Random random(15);
+  const std::vector<Pose> poses = posesOfDims(10, 0.02, 40, random);
+  PriorConfig config;
+  config.neighbours = {15, 45};
+  config.residual_rad = 0.05;
+  LocalPriorBuilder builder(config);
+  LocalPrior prior;
+  builder.build(databaseOf(poses), firstNeighbours(40), prior);
+  EXPECT_EQ(prior.neighbours, 40);
+  EXPECT_EQ(prior.residual_rad, 0.05);
+  using Covariance = Eigen::Matrix<double, kDofCount, kDofCount>;
+  Covariance expected = Covariance::Zero();
+  for (const Pose& q : poses) expected += (q - prior.mean) * (q - prior.mean).transpose() / 40;
+  const auto P = prior.basis.leftCols(prior.dims);
+  const Covariance held = P * prior.deviation.head(prior.dims).cwiseAbs2().asDiagonal() * P.transpose();
+  EXPECT_LT((held - expected).norm(), 1e-5 * expected.norm());
 }
 
 TEST(LocalPriorBuilder, UsesOnlyTheNearestOfTheChosenK) {
@@ -224,9 +244,12 @@ TEST(PriorConfig, RefusesListsOutOfRangeOrOrder) {
   EXPECT_THROW(with({15, 51}, {3}, 8).validate(), Error);
   EXPECT_THROW(with({30, 15}, {3}, 8).validate(), Error);
   EXPECT_THROW(with({15}, {3, 3}, 8).validate(), Error);
-  EXPECT_THROW(with({15}, {8}, 8).validate(), Error);
+  EXPECT_THROW(with({15}, {33}, 8).validate(), Error);
   EXPECT_THROW(with({15}, {3}, 16).validate(), Error);
   EXPECT_THROW(with({15}, {3}, 0).validate(), Error);
+  PriorConfig negative;
+  negative.residual_rad = -0.1;
+  EXPECT_THROW(negative.validate(), Error);
 }
 
 }  // namespace

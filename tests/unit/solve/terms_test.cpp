@@ -133,6 +133,21 @@ TEST(PriorTerm, IsZeroOnTheSubspaceAndTheSquaredDistanceOffIt) {
   EXPECT_NEAR(residualOf(term, q + off).squaredNorm(), 0.2 * off.squaredNorm(), 1e-12);
 }
 
+TEST(PriorTerm, OfAGaussianIsTheMahalanobisDistance) {
+  LocalPrior prior = MovingBody::priorOf(somePoses(), 3);
+  prior.deviation.head<3>() << 0.5, 0.2, 0.01;
+  prior.residual_rad = 0.05;
+  PriorTerm term(&prior, 100.0);
+  expectGradient(term, MovingBody::motion(5, 0.2));
+  const auto P = prior.basis.leftCols<3>();
+  Eigen::Matrix<double, kDofCount, kDofCount> covariance = 0.05 * 0.05 * Pose::Ones().asDiagonal().toDenseMatrix();
+  covariance += P * prior.deviation.head<3>().cwiseAbs2().asDiagonal() * P.transpose();
+  Pose d = Pose::Zero();
+  for (int dof : kShapeDofs) d[dof] = 0.01 * (dof % 7) - 0.02;
+  const double expected = 100.0 * 0.05 * 0.05 * d.dot(covariance.ldlt().solve(d));
+  EXPECT_NEAR(residualOf(term, prior.mean + d).squaredNorm(), expected, 1e-9);
+}
+
 TEST(PriorTerm, NoPriorNoEnergy) {
   PriorTerm term(nullptr, 0.2);
   EXPECT_EQ(residualOf(term, MovingBody::motion(5, 0.2)).norm(), 0);

@@ -9,9 +9,11 @@ namespace {
 
 TEST(LeaveOut, WithoutOursThePapersMethodIsLeft) {
   TrackerConfig config;
-  for (const char* part : {"weights", "dense", "sides", "feet"}) leaveOut(part, config);
+  for (const char* part : {"weights", "gaussian", "dense", "sides", "feet"}) leaveOut(part, config);
   const TrackerConfig paper = paperConfig();
   EXPECT_EQ(config.solve.lambda_prior, paper.solve.lambda_prior);
+  EXPECT_EQ(config.prior.neighbours, paper.prior.neighbours);
+  EXPECT_EQ(config.prior.residual_rad, paper.prior.residual_rad);
   EXPECT_EQ(config.solve.lambda_smooth, paper.solve.lambda_smooth);
   EXPECT_EQ(config.solve.velocity_share, paper.solve.velocity_share);
   EXPECT_EQ(config.policy.dense_rounds, paper.policy.dense_rounds);
