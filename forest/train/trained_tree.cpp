@@ -44,7 +44,7 @@ FacingWeights equalisingWeights(const FacingCounts& all) {
 
 // The rows of one leaf.
 void addRows(const FacingCounts& counts, const FacingWeights& weights, std::size_t facings, int steps,
-             std::vector<std::array<std::uint8_t, kPartCount>>& rows) {
+             std::vector<LeafRow>& rows) {
   std::array<std::array<double, kPartCount>, kFacingCount> shares{};
   double total = 0;
   for (std::size_t f = 0; f < kFacingCount; ++f) {

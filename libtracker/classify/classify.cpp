@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 256;
 
-using FacingVotes = std::array<std::array<std::uint16_t, kPartCount>, kFacingCount>;  // up to 257 trees of 255 each
+using FacingVotes = std::array<VoteRow, kFacingCount>;  // up to 257 trees of 255 each
 constexpr std::size_t kMaxTrees = 257;
 
 void checkArguments(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px, int stride) {
@@ -27,10 +27,16 @@ void checkArguments(const Forest& forest, const DepthImage& depth, const MaskIma
 void addLeaf(const ForestTree& tree, std::size_t leaf, std::size_t facings, FacingVotes& votes) {
   for (std::size_t facing = 0; facing < facings; ++facing) {
     const auto& row = tree.leaves[leaf * facings + facing];
-    for (std::size_t part = 0; part < kPartCount; ++part) {
+    for (std::size_t part = 0; part < kPartLanes; ++part) {
       votes[facing][part] = static_cast<std::uint16_t>(votes[facing][part] + row[part]);
     }
   }
+}
+
+void prefetchLeaf(const ForestTree& tree, std::size_t leaf, std::size_t facings) {
+  const auto* rows = tree.leaves.data() + leaf * facings;
+  __builtin_prefetch(rows);
+  __builtin_prefetch(rows + facings - 1);
 }
 
 int firstOnGrid(int from, int stride) {
@@ -61,13 +67,23 @@ void addVotes(const Forest& forest, const ActorDepth& actor, double focal_px, De
     lanes.y[lane] = pixel.y - actor.top + 1;
     lanes.scale[lane] = probeScale(focal_px, pixel.depth_m);
   }
-  LeafLanes leaves;
-  for (const ForestTree& tree : forest.trees) {
-    descend(tree, actor, lanes, leaves);
+  const auto facings = static_cast<std::size_t>(forest.facings);
+  const auto add = [&](const ForestTree& tree, const LeafLanes& leaves) {
     for (std::size_t lane = 0; lane < count; ++lane) {
-      addLeaf(tree, static_cast<std::size_t>(leaves[lane]), static_cast<std::size_t>(forest.facings), votes[lane]);
+      addLeaf(tree, static_cast<std::size_t>(leaves[lane]), facings, votes[lane]);
     }
+  };
+  // The leaves of one tree come into the cache while the pixels go down the next.
+  std::array<LeafLanes, 2> leaves;
+  const std::size_t last = forest.trees.size() - 1;
+  for (std::size_t t = 0; t <= last; ++t) {
+    descend(forest.trees[t], actor, lanes, leaves[t % 2]);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      prefetchLeaf(forest.trees[t], static_cast<std::size_t>(leaves[t % 2][lane]), facings);
+    }
+    if (t > 0) add(forest.trees[t - 1], leaves[(t - 1) % 2]);
   }
+  add(forest.trees[last], leaves[last % 2]);
 }
 
 template <typename Body>
@@ -110,8 +126,8 @@ void labelAs(const PartImage& parts, int threads, ClassifyMemory& memory, Classi
   DMC_CHECK(memory.votes.size() == pixels.pixels.size());
   for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
     const int label = parts.at(pixels.pixels[i].x, pixels.pixels[i].y);
-    std::array<std::uint16_t, kPartCount> votes{};
-    if (label == 0) votes.fill(1);
+    VoteRow votes{};
+    if (label == 0) std::fill_n(votes.begin(), kPartCount, std::uint16_t{1});
     if (label != 0) votes[static_cast<std::size_t>(label - 1)] = 1;
     memory.votes[i].fill(votes);
   }

@@ -19,8 +19,7 @@ constexpr float kVoteFloor = 0.01F;
 
 }  // namespace
 
-void addEvidence(const std::array<std::array<std::uint16_t, kPartCount>, kFacingCount>& votes,
-                 std::array<double, kFacingCount>& evidence) {
+void addEvidence(const std::array<VoteRow, kFacingCount>& votes, std::array<double, kFacingCount>& evidence) {
   std::array<int, kFacingCount> sums{};
   for (std::size_t f = 0; f < kFacingCount; ++f) sums[f] = std::accumulate(votes[f].begin(), votes[f].end(), 0);
   const int all = std::accumulate(sums.begin(), sums.end(), 0);
@@ -48,15 +47,14 @@ FacingShares facingProbabilities(std::span<const std::array<double, kFacingCount
   return result;
 }
 
-void partProbabilities(const std::array<std::array<std::uint16_t, kPartCount>, kFacingCount>& votes,
-                       const FacingShares& facing, std::array<float, kPartCount>& probability) {
-  probability = {};
+void partProbabilities(const std::array<VoteRow, kFacingCount>& votes, const FacingShares& facing,
+                       std::array<float, kPartCount>& probability) {
+  std::array<float, kPartLanes> shares{};
   for (std::size_t f = 0; f < kFacingCount; ++f) {
     const float weight = facing[f] + kFacingFloor;
-    for (std::size_t part = 0; part < kPartCount; ++part) {
-      probability[part] += weight * static_cast<float>(votes[f][part]);
-    }
+    for (std::size_t part = 0; part < kPartLanes; ++part) shares[part] += weight * static_cast<float>(votes[f][part]);
   }
+  std::copy_n(shares.begin(), kPartCount, probability.begin());
   const float sum = std::accumulate(probability.begin(), probability.end(), 0.0F);
   const float share = sum > 0 ? 1.0F / sum : 0.0F;
   for (float& p : probability) p *= share;

@@ -37,6 +37,7 @@ void checkTree(const ForestTree& tree, std::size_t facings) {
     open.insert(open.end(), {left, left + 1});
   }
   DMC_CHECK(reached_count == tree.nodes.size());
+  for (const LeafRow& row : tree.leaves) DMC_CHECK(row[kPartCount] == 0);
   for (std::size_t leaf = 0; leaf < leaf_count; ++leaf) DMC_CHECK(leafTotal(tree, leaf, facings) > 0);
 }
 

@@ -26,11 +26,18 @@ struct ForestNode {
   std::int32_t child = 0;  // > 0: index of the left child, the right one follows it; <= 0: -index of the leaf
 };
 
+// What a leaf says for one facing. Rows of leaves and of votes have one value more than there are parts, always 0, so
+// that they fill whole vectors.
+inline constexpr std::size_t kPartLanes = 16;
+static_assert(kPartLanes > kPartCount);
+using LeafRow = std::array<std::uint8_t, kPartLanes>;
+using VoteRow = std::array<std::uint16_t, kPartLanes>;
+
 struct ForestTree {
   std::vector<ForestNode> nodes;  // nodes[0] is the root
   // Each leaf has as many rows as the forest has facings: leaf i begins at leaves[i * facings]. Its rows together are
   // the distribution * 255 of part and facing, as if every facing were equally frequent.
-  std::vector<std::array<std::uint8_t, kPartCount>> leaves;
+  std::vector<LeafRow> leaves;
 };
 
 struct Forest {
@@ -63,7 +70,7 @@ struct ClassifyConfig {
 struct ClassifyMemory {
   ActorDepth actor;
   // What the trees say of each pixel: the sum of its leaves.
-  std::vector<std::array<std::array<std::uint16_t, kPartCount>, kFacingCount>> votes;
+  std::vector<std::array<VoteRow, kFacingCount>> votes;
   std::vector<std::array<double, kFacingCount>> evidence;  // of some pixels each
 };
 

@@ -176,6 +176,7 @@ TEST(CheckForest, RefusesCyclesOrphansAndBadIndices) {
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.nodes.emplace_back(); })), std::logic_error);
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.leaves.pop_back(); })), std::logic_error);
   EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.leaves[0] = {}; })), std::logic_error);
+  EXPECT_THROW(checkForest(broken([](ForestTree& t) { t.leaves[0][kPartCount] = 1; })), std::logic_error);
   Forest facings = good;
   facings.facings = 3;
   EXPECT_THROW(checkForest(facings), std::logic_error);

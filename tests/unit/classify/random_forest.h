@@ -26,7 +26,9 @@ inline ForestTree randomTree(std::size_t splits, int facings, Random& random) {
       tree.nodes[i].child = -static_cast<std::int32_t>(tree.leaves.size() / static_cast<std::size_t>(facings));
       for (int facing = 0; facing < facings; ++facing) {
         auto& leaf = tree.leaves.emplace_back();
-        for (auto& p : leaf) p = static_cast<std::uint8_t>(random.below(256 / static_cast<std::uint32_t>(facings)));
+        for (std::size_t part = 0; part < kPartCount; ++part) {
+          leaf[part] = static_cast<std::uint8_t>(random.below(256 / static_cast<std::uint32_t>(facings)));
+        }
       }
       tree.leaves.back()[random.below(kPartCount)] = 255;
     }
