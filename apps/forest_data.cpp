@@ -49,6 +49,12 @@ void addDataOptions(CLI::App& command, DataOptions& data) {
   command.add_flag("--tpose", data.t_pose, "T-poses facing the camera: the forest of the actor calibration");
   command.add_flag("--plain", data.plain,
                    "People as they usually stand before a camera, not as hard as what forests should learn from");
+  command
+      .add_option(
+          "--posture-share", data.posture_share,
+          "Share of the images whose pose is of a posture chosen uniformly: bent and crouching as often as standing")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   command.add_option("--exclude", data.exclude,
                      "Motions to hold out for measuring (default: a tenth of all motions, chosen by name)");
   command.add_option("--bodies", data.bodies, "Bodies to render")->check(CLI::Range(1, 10000))->capture_default_str();
@@ -69,6 +75,7 @@ ImageSet makeImageSet(const DataOptions& data, PoseUse use, std::size_t images) 
   options.t_poses = data.t_pose;
   options.view.facing_share = 0.3;  // half of all views are then within 60 degrees of the camera
   if (data.plain) askForPlainViews(options);
+  options.variation.posture_share = data.posture_share;
   set.source = std::make_unique<RenderedImageSource>(set.bodies, set.poses, options);
   return set;
 }

@@ -21,6 +21,7 @@ struct DataOptions {
   std::string makehuman;
   bool t_pose = false;
   bool plain = false;
+  double posture_share = 0;
   std::vector<std::string> exclude;
   int bodies = 200;
   std::uint64_t seed = 1;

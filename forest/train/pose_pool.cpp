@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "libtracker/core/check.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -20,6 +21,10 @@ std::uint32_t hashOf(std::string_view text) {
   return hash;
 }
 
+constexpr float kPostureStep = 0.5F;  // [rad]
+constexpr std::array<int, std::tuple_size_v<PosePool::Posture>> kPostureDofs = {
+    kRootRx, kRootRz, kUpperbackRx, kRfemurRx, kRfemurRz, kLfemurRx, kLfemurRz, kRtibiaRx, kLtibiaRx};
+
 // Where the actor stands and looks is drawn for every picture.
 StoredPose withoutPlace(StoredPose q) {
   for (const int dof : {kRootTx, kRootTy, kRootTz, kRootRy}) q[dof] = 0;
@@ -33,7 +38,7 @@ class Thinning {
     if (!empty_ && (q - last_).cwiseAbs().maxCoeff() < min_change_) return;
     last_ = q;
     empty_ = false;
-    pool_.poses.push_back(q);
+    pool_.add(q);
   }
 
  private:
@@ -62,6 +67,17 @@ void hangRightArm(Random& random, Pose& q) {
 }
 
 }  // namespace
+
+void PosePool::add(const StoredPose& q) {
+  Posture posture{};
+  for (std::size_t i = 0; i < posture.size(); ++i) {
+    posture[i] = static_cast<std::int8_t>(std::lround(q[kPostureDofs[i]] / kPostureStep));
+  }
+  const auto [place, is_new] = posture_index.try_emplace(posture, by_posture.size());
+  if (is_new) by_posture.emplace_back();
+  by_posture[place->second].push_back(static_cast<std::uint32_t>(poses.size()));
+  poses.push_back(q);
+}
 
 bool HeldOutMotions::contains(std::string_view motion) const {
   motion = motion.substr(0, motion.find(':'));  // "16_15:mirrored" is 16_15
@@ -96,7 +112,14 @@ Pose drawPose(const PosePool& pool, const PoseVariation& variation, Random& rand
   const auto any = [&]() -> const StoredPose& {
     return pool.poses[random.below(static_cast<std::uint32_t>(pool.poses.size()))];
   };
-  StoredPose q = any();
+  const auto anyPosture = [&]() -> const StoredPose& {
+    DMC_CHECK(!pool.by_posture.empty());
+    const auto& alike = pool.by_posture[random.below(static_cast<std::uint32_t>(pool.by_posture.size()))];
+    return pool.poses[alike[random.below(static_cast<std::uint32_t>(alike.size()))]];
+  };
+  // No number is drawn where it decides nothing: the pictures of a seed stay what they were.
+  const bool by_posture = variation.posture_share > 0 && random.uniform() < variation.posture_share;
+  StoredPose q = by_posture ? anyPosture() : any();
   if (random.uniform() < variation.mix_share) {
     const StoredPose& right = any();
     const StoredPose& left = any();

@@ -1,5 +1,8 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +16,16 @@ namespace depthmocap {
 // Poses to render, free of place and heading, without near duplicates.
 struct PosePool {
   using StoredPose = Eigen::Matrix<float, kDofCount, 1>;
+  // Tilt of the trunk, hips and knees in coarse steps; arms do not count.
+  using Posture = std::array<std::int8_t, 9>;
   std::vector<StoredPose> poses;
   std::string description;  // changes with the poses
+  // The poses of each posture, and where a posture stands among them. Half of all captured poses share 34 postures of
+  // 5,594: people walk and stand.
+  std::vector<std::vector<std::uint32_t>> by_posture;
+  std::map<Posture, std::size_t> posture_index;
+
+  void add(const StoredPose& q);
 };
 
 // What is left out of training, for measuring: motions by name; with none named, every motion whose name falls into a
@@ -43,6 +54,9 @@ struct PoseVariation {
   // [0, 1] of the arms that hang at the side instead, hand on the thigh: people stand so, captured actors seldom do.
   double hang_share = 0.15;
   double jitter = 0.06;  // [rad] standard deviation of every angle of the body
+  // [0, 1] of the poses drawn from a posture chosen uniformly, so that bending, squatting and kneeling are as frequent
+  // as walking; the others uniformly from all poses
+  double posture_share = 0;
 };
 
 // A random pose of the pool (not empty), varied, within the joint limits.

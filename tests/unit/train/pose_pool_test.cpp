@@ -72,6 +72,30 @@ TEST(PosePool, DrawnPosesKeepTheLimitsAndMixArms) {
   EXPECT_LT(mixed, 110);
 }
 
+// 19 poses of a walker who hardly moves and one who bends down.
+TEST(PosePool, ByPostureRarePosesAreAsFrequentAsCommonOnes) {
+  PosePool pool;
+  for (int i = 0; i < 19; ++i) {
+    PosePool::StoredPose q = PosePool::StoredPose::Zero();
+    q[kRtibiaRx] = static_cast<float>(0.01 * i);
+    q[kRhumerusRz] = static_cast<float>(0.05 * i);  // arms make no posture
+    pool.add(q);
+  }
+  PosePool::StoredPose bent = PosePool::StoredPose::Zero();
+  bent[kRootRx] = 1.2F;
+  pool.add(bent);
+  ASSERT_EQ(pool.by_posture.size(), 2U);
+  for (const double share : {0.0, 1.0}) {
+    Random random(3);
+    int found = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Pose q = drawPose(pool, {.mix_share = 0, .hang_share = 0, .jitter = 0, .posture_share = share}, random);
+      found += q[kRootRx] > 1.0 ? 1 : 0;
+    }
+    EXPECT_NEAR(found, share > 0 ? 500 : 50, 60) << share;
+  }
+}
+
 TEST(PosePool, TPosesAreNearTheZeroPose) {
   Random random(2);
   double bent = 0;
