@@ -31,11 +31,12 @@ class Take:
     first: int = 0
     last: int = 299
 
-    def render(self, lab, frames):
+    def render(self, lab, frames, noise=True):
         """The recording of the first frames."""
-        recording = lab.render(self.motion, *self.body.options, "--yaw", self.yaw_deg, "--first", self.first, "--last",
-                               self.last)
-        return lab.variant(recording, lab.frames(frames))
+        options = [*self.body.options, "--yaw", self.yaw_deg, "--first", self.first]
+        if noise:
+            return lab.variant(lab.render(self.motion, *options, "--last", self.last), lab.frames(frames))
+        return lab.render(self.motion, *options, "--last", min(self.last, self.first + lab.frames(frames) - 1), "--noise", "off")
 
 
 CROSS_VALIDATION = [
