@@ -29,6 +29,7 @@ constexpr float kLimbedFill = 0.75F;  // of the upright rectangle around it: lim
 constexpr float kBoxFill = 0.90F;     // cupboards less
 constexpr float kPanelThickness_m = 0.012F;   // a door or cupboard front; a body is 4 cm and more
 constexpr float kPanelNoise_per_m = 0.0015F;  // and what depth noise adds, times depth^2
+constexpr float kPanelShare = 0.001F;         // of a board where the background is removed
 constexpr float kCutBySideShare = 0.5F;       // who is half out of the view is less likely the actor
 constexpr float kNearExpected_m = 0.5F;
 constexpr float kExpectedReach_m = 1.0F;  // from the expected place,
@@ -43,19 +44,27 @@ float likeness(float value, float full_at, float thing_at) {
   return std::max(kThingShare, std::clamp((thing_at - value) / (thing_at - full_at), 0.0F, 1.0F));
 }
 
+bool isPanel(const Component& c) {
+  return c.thickness_m < kPanelThickness_m + kPanelNoise_per_m * c.mean.z() * c.mean.z();
+}
+
+// Where only people should be left, every shape is a person's but that of a board that was held before them.
+float cutOutScore(const Component& c) {
+  return isPanel(c) ? kPanelShare : 1.0F;
+}
+
 float shapeScore(const Component& c, float box_share, const SegmentConfig& config) {
   const bool too_small = c.height() < static_cast<float>(config.min_height_m) && !c.touches_border;
   const bool too_large =
       c.height() > static_cast<float>(config.max_height_m) || c.widthX() > kWidest_m || c.depthZ() > kPersonDepth_m;
   if (too_small || too_large || c.area_m2 < kMinPersonArea_m2) return 0;
-  const float panel = kPanelThickness_m + kPanelNoise_per_m * c.mean.z() * c.mean.z();
   float score = std::clamp(c.height() / kUsualHeight_m, 0.1F, 1.0F);
   score *= c.touches_top ? 1.0F : likeness(c.top_width_m, kHeadWidth_m, kBoxTopWidth_m);
   score *= likeness(c.area_m2 / c.height(), kBodyWidth_m, kSofaWidth_m);
   score *= likeness(c.area_m2, kLargestArea_m2, kTooLargeArea_m2);
   score *= likeness(box_share, kRoundShare, kBoxShare);
   score *= likeness(c.fill, kLimbedFill, kBoxFill);
-  score *= c.thickness_m < panel ? kThingShare : 1.0F;
+  score *= isPanel(c) ? kThingShare : 1.0F;
   return c.touches_side ? kCutBySideShare * score : score;
 }
 
@@ -86,7 +95,7 @@ Choice choosePerson(const std::vector<Component>& components, const SegmentConfi
     const Component& c = components[k];
     if (c.cells >= context.min_area_cells) {
       scores[k] = static_cast<float>(c.cells) / c.mean.z();
-      if (!context.cut_out) scores[k] *= shapeScore(c, (*context.box_shares)[k], config);
+      scores[k] *= context.cut_out ? cutOutScore(c) : shapeScore(c, (*context.box_shares)[k], config);
     }
     const bool larger = actor == kNoComponent || c.cells > components[static_cast<std::size_t>(actor)].cells;
     if (c.who == Identity::Actor && c.cells >= kMinActorCells && larger) actor = static_cast<std::int32_t>(k);

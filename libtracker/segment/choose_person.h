@@ -15,8 +15,8 @@ bool looksCutOut(const CoarseCloud& cloud, const std::vector<Component>& compone
 
 // What choosing needs to know about the frame.
 struct ChoiceContext {
-  bool cut_out = false;                     // the background is already removed: no test for a person's shape
-  double min_area_cells = 1;                // smaller components are no person
+  bool cut_out = false;       // the background is already removed: no test for a person's shape, but flat things
+  double min_area_cells = 1;  // smaller components are no person
   const ExpectedActor* expected = nullptr;  // null = anybody
   float usual_score = 0;                    // of the actor in the frames before
   float usual_area_m2 = 0;

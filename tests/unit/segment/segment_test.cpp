@@ -43,6 +43,20 @@ TEST(Segment, RemovedBackgroundKeepsEveryPixelOfThePerson) {
   EXPECT_LT((result.centroid_camera - Eigen::Vector3d(0.1, 0.1, 2.6)).norm(), 0.15);
 }
 
+TEST(Segment, ABoardBeforeThePersonIsNotThePersonWhereTheBackgroundIsRemoved) {
+  TestScene scene;
+  scene.noise = 0.001;
+  scene.addPerson(kActor, kFeet);
+  constexpr int kBoard = 9;
+  scene.addPanel(kBoard, Eigen::Vector3d(-0.42, 0, 1.0), 0.2, 0.5);
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, nullptr, result);
+  EXPECT_GT(overlap(result.mask, objects, kActor), 0.9);
+}
+
 TEST(Segment, SpecklesAreDroppedAndThePixelCountIsOfTheMask) {
   TestScene scene;
   scene.addPerson(kActor, kFeet);
