@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/look_ahead.h"
 #include "apps/progress.h"
 #include "apps/replay_view.h"
 #include "apps/run_stats.h"
@@ -30,6 +31,7 @@ using Clock = std::chrono::steady_clock;
 struct ReplayOptions {
   fs::path recording;
   TrackOptions track;
+  double look_ahead_s = kLookAhead_s;
   std::int64_t first = 0;
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
 };
@@ -77,12 +79,12 @@ class Pace {
 // Rate of the tracker over the last frames.
 class FrameRate {
  public:
-  // [1/s]
-  double next() {
-    const Clock::time_point now = Clock::now();
-    times_.push_back(now);
+  void count() {
+    times_.push_back(Clock::now());
     if (times_.size() > kFrames) times_.pop_front();
-    const double span_s = std::chrono::duration<double>(now - times_.front()).count();
+  }
+  [[nodiscard]] double perSecond() const {
+    const double span_s = std::chrono::duration<double>(times_.back() - times_.front()).count();
     return span_s > 0 ? static_cast<double>(times_.size() - 1) / span_s : 0.0;
   }
 
@@ -101,6 +103,40 @@ std::vector<std::size_t> chosenFrames(const RecordingReader& reader, const Repla
   return chosen;
 }
 
+// Where tracked frames go: files, streams and the page.
+class ReplayOutputs {
+ public:
+  ReplayOutputs(const ReplayOptions& options, const RecordingInfo& info, std::size_t total)
+      : outputs_(options.track, info), pace_(!options.track.vmc.empty()) {
+    if (options.track.view.on) view_.emplace(options.track.view, options.recording, total);
+  }
+  // Every frame that has waited long enough.
+  void take(LookAhead& waiting, RunStats& stats) {
+    while (const LookAhead::Frame* frame = waiting.next()) {
+      pace_.waitFor(frame->tracked.time_s);
+      const auto start = Clock::now();
+      const TrackedFrame& shown = outputs_.write(frame->depth, frame->tracked);
+      if (view_) view_->add(frame->index, shown, rate_.perSecond());
+      stats.addWrite(millisecondsSince(start));
+    }
+  }
+  void countTracked() { rate_.count(); }
+  void finish(const ActorModel& actor) { outputs_.finish(actor); }
+  // Until Ctrl-C.
+  void stayForView() {
+    if (!view_) return;
+    view_->tracked();
+    std::cerr << "the page stays until Ctrl-C\n";
+    while (!StopRequest::made()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+
+ private:
+  TrackOutputs outputs_;
+  std::optional<ReplayView> view_;
+  Pace pace_;
+  FrameRate rate_;
+};
+
 void replay(const ReplayOptions& options) {
   const auto start = Clock::now();
   const StopRequest on_ctrl_c;
@@ -108,12 +144,9 @@ void replay(const ReplayOptions& options) {
   const std::vector<std::size_t> chosen = chosenFrames(*reader, options);
   Tracker tracker(loadTrackerModels(options.track), reader->info().camera, trackerConfig(options.track),
                   actorOf(options.track));
-  TrackOutputs outputs(options.track, reader->info());
-  std::optional<ReplayView> view;
-  if (options.track.view.on) view.emplace(options.track.view, options.recording, chosen.size());
+  ReplayOutputs outputs(options, reader->info(), chosen.size());
+  LookAhead waiting(options.look_ahead_s);
   RunStats stats;
-  Pace pace(!options.track.vmc.empty());
-  FrameRate rate;
   std::size_t readable = 0;
   DepthFrame frame;
   {
@@ -122,24 +155,21 @@ void replay(const ReplayOptions& options) {
       readable += readFrame(*reader, chosen[n], frame, stats) ? 1 : 0;
       const TrackedFrame& tracked = tracker.process(frame);
       stats.addFrame(tracked);
-      pace.waitFor(frame.time_s);
-      const auto write_start = Clock::now();
-      const TrackedFrame& shown = outputs.write(frame, tracked);
-      if (view) view->add(chosen[n], shown, rate.next());
-      stats.addWrite(millisecondsSince(write_start));
+      outputs.countTracked();
+      waiting.add(chosen[n], frame, tracked, tracker.actor());
+      outputs.take(waiting, stats);
       progress.update(n + 1);
     }
   }
   if (readable == 0 && !StopRequest::made())
     throw Error("no frame of the recording can be read", options.recording.string());
+  waiting.finish();
+  outputs.take(waiting, stats);
   outputs.finish(tracker.actor());
   const double wall_s = millisecondsSince(start) / 1000.0;
   if (!options.track.stats.empty()) stats.write(options.track.stats, wall_s, options.track.actor.empty());
   std::cerr << "tracked " << stats.tracked() << " of " << stats.frames() << " frames\n";
-  if (!view) return;
-  view->tracked();
-  std::cerr << "the page stays until Ctrl-C\n";
-  while (!StopRequest::made()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  outputs.stayForView();
 }
 
 }  // namespace
@@ -151,6 +181,7 @@ void addReplayCommand(CLI::App& app) {
       ->type_name("REC")
       ->required();
   addTrackOptions(*command, options->track);
+  addLookAheadOption(*command, options->look_ahead_s);
   command->add_option("--first", options->first, "First frame number to track");
   command->add_option("--last", options->last, "Last frame number to track");
   command->footer(

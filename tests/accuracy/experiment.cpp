@@ -15,6 +15,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/look_ahead.h"
 #include "apps/run_stats.h"
 #include "apps/track_options.h"
 #include "apps/track_outputs.h"
@@ -47,8 +48,9 @@ constexpr std::array<std::pair<const char*, double MapConfig::*>, 6> kWeights = 
 struct ExperimentOptions {
   fs::path recording;
   TrackOptions track;
-  std::string true_body;   // SEX,STATURE,WEIGHT of the built-in body that was rendered
-  double actor_scale = 1;  // of that body or of --actor
+  double look_ahead_s = 0;  // each frame by those before it alone, as live
+  std::string true_body;    // SEX,STATURE,WEIGHT of the built-in body that was rendered
+  double actor_scale = 1;   // of that body or of --actor
   bool true_labels = false;
   bool true_markers = false;
   int neighbours = 0;  // K alone, 0 = the default
@@ -147,6 +149,10 @@ void experiment(const ExperimentOptions& o) {
   Truth truth(o, body.actor);
   Tracker tracker(body.models, reader->info().camera, configOf(o), body.actor);
   TrackOutputs outputs(o.track, reader->info());
+  LookAhead waiting(o.look_ahead_s);
+  const auto take = [&] {
+    while (const LookAhead::Frame* frame = waiting.next()) outputs.write(frame->depth, frame->tracked);
+  };
   RunStats stats;
   DepthFrame frame;
   for (std::size_t i = 0; i < reader->frameCount(); ++i) {
@@ -154,8 +160,11 @@ void experiment(const ExperimentOptions& o) {
     disturb(o.disturbance, frame);
     const TrackedFrame& tracked = tracker.process(frame, truth.of(frame.frame));
     stats.addFrame(tracked);
-    outputs.write(frame, tracked);
+    waiting.add(i, frame, tracked, tracker.actor());
+    take();
   }
+  waiting.finish();
+  take();
   outputs.finish(tracker.actor());
   if (!o.track.stats.empty()) stats.write(o.track.stats, 0, !body.actor);
 }
@@ -163,6 +172,7 @@ void experiment(const ExperimentOptions& o) {
 void addOptions(CLI::App& app, ExperimentOptions& o) {
   app.add_option("recording", o.recording)->required();
   addTrackOptions(app, o.track);
+  addLookAheadOption(app, o.look_ahead_s);
   app.add_option("--true-body", o.true_body, "Track with the built-in body of this SEX,STATURE,WEIGHT");
   app.add_option("--actor-scale", o.actor_scale, "Track with that body, or --actor's, so many times as large")
       ->check(CLI::Range(0.5, 2.0));

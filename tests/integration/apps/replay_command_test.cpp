@@ -120,6 +120,34 @@ TEST_F(ReplayCommand, TracksFromFirstToLast) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none.csv"));
 }
 
+// Sum over joints and frames of the second differences of the paths [m].
+double roughness(const std::vector<JointsRow>& rows) {
+  double sum = 0;
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    sum += (rows[i].p_camera - 2 * rows[i - 1].p_camera + rows[i - 2].p_camera).colwise().norm().sum();
+  }
+  return sum;
+}
+
+TEST_F(ReplayCommand, LooksAheadForCalmerPosesAndLeavesTheRestAsItIs) {
+  replayTo("off", "boxing", "--last 24 --look-ahead 0 --labels " + at("off"));
+  replayTo("on", "boxing", "--last 24 --labels " + at("on"));
+  const auto off = readJointsFile(folder_ / "off.csv");
+  const auto on = readJointsFile(folder_ / "on.csv");
+  ASSERT_EQ(on.size(), off.size());
+  for (std::size_t i = 0; i < on.size(); ++i) {
+    EXPECT_EQ(on[i].frame, off[i].frame);
+    EXPECT_EQ(on[i].time_s, off[i].time_s);
+    EXPECT_EQ(on[i].state, off[i].state);
+    EXPECT_EQ(on[i].confidence, off[i].confidence);
+    const std::string labels = framePng(static_cast<int>(i));
+    EXPECT_EQ(readBytes(folder_ / "on" / labels), readBytes(folder_ / "off" / labels)) << i;
+  }
+  EXPECT_LT(roughness(on), 0.6 * roughness(off));
+  EXPECT_EQ(readPoseFile(folder_ / "on_q.csv").size(), readPoseFile(folder_ / "off_q.csv").size());
+  EXPECT_EQ(replay("boxing", "--look-ahead -1").exit_code, 2);
+}
+
 TEST_F(ReplayCommand, ReadsOtherFilesThanThoseThatComeWithIt) {
   for (const char* option : {"--forest", "--posedb"}) {
     const ProgramResult missing = replay("walk", std::string(option) + " " + at("none"));
