@@ -37,7 +37,8 @@ Matrix rootOf(const Matrix& A) {
 
 SurfaceTerm::SurfaceTerm(const Skeleton& skeleton, const SurfaceMatches* matches, double lambda, double sigma_m)
     : skeleton_(skeleton) {
-  if (matches == nullptr) return;
+  if (matches == nullptr || matches->empty()) return;
+  matched_ = true;
   const double scale = lambda / (2.0 * sigma_m * sigma_m);
   for (BoneForm& form : forms_) form.root.setZero();
   for (const SurfaceMatch& match : *matches) {
@@ -58,6 +59,7 @@ SurfaceTerm::SurfaceTerm(const Skeleton& skeleton, const SurfaceMatches* matches
 void SurfaceTerm::evaluate(const Pose& q, ResidualRows r, JacobianRows* J) {
   r.setZero();
   if (J != nullptr) J->setZero();
+  if (!matched_) return;
   fk_.update(skeleton_, q);
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     if (!forms_[b].matched) continue;

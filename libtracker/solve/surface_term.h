@@ -31,6 +31,7 @@ class SurfaceTerm {
   };
 
   const Skeleton& skeleton_;
+  bool matched_ = false;  // any bone
   std::array<BoneForm, kBoneCount> forms_;
   ForwardKinematics fk_;
 };
