@@ -7,7 +7,7 @@
 
 namespace depthmocap {
 
-inline constexpr int kLanes = 32;  // pixels that go down a tree together
+inline constexpr int kLanes = 64;  // pixels that go down a tree together
 
 // Pixels on their way down: place in the cut-out and the scale of their offsets. Unused lanes repeat the first one.
 struct PixelLanes {
