@@ -36,6 +36,8 @@ void askForPlainViews(RenderedImageOptions& options) {
   options.view.max_camera_height_m = 1.6;
   options.view.max_tilt = 0.2;
   options.view.cut_share = 0;
+  options.view.carried_share = 0;
+  options.view.obstacle_share = 0;
 }
 
 }  // namespace

@@ -10,10 +10,11 @@
 
 namespace depthmocap {
 
-// One picture to learn from. The actor is where parts != 0; a hole of the sensor is 0 in both images.
+// One picture to learn from: the actor and what he carries. What is behind him, before him and not measured is 0 in
+// both images.
 struct TrainingView {
   DepthImage depth;  // [m]
-  PartImage parts;   // Part
+  PartImage parts;   // Part; None where he carries something
   CameraModel camera;
   SensorKind sensor = SensorKind::Kinect1;
   Pose q_world = Pose::Zero();  // what was rendered; world: y up, the floor at y = 0, the camera above the origin
@@ -31,6 +32,8 @@ struct TrainingViewConfig {
   double facing_share = 0.35;        // [0, 1] of the pictures within facing_range of the camera, the others anywhere
   double facing_range = 1.0;         // [rad]
   double cut_share = 0.12;           // [0, 1] of the pictures moved sideways out of the image, partly
+  double carried_share = 0.12;       // [0, 1] of the pictures with a bag or something in a hand
+  double obstacle_share = 0.12;      // [0, 1] of the pictures with something between actor and camera
   double noise_share = 0.9;          // [0, 1] of the pictures with sensor noise
   double kinect2_share = 0.3;        // [0, 1] of the pictures 512x424
   double half_size_share = 0.5;      // [0, 1] of the pictures 320x240; the rest is 640x480
@@ -50,6 +53,7 @@ class TrainingViewRenderer {
   void drawCamera(Random& random, TrainingView& view) const;
   void placeActor(const BodySurface& body, const Pose& q, Random& random, TrainingView& view);
   void aimCamera(double distance_m, Random& random, TrainingView& view) const;
+  [[nodiscard]] TriangleMesh drawProps(const Skeleton& skeleton, const Pose& q_world, Random& random) const;
 
   TrainingViewConfig config_;
   DepthRenderer renderer_;

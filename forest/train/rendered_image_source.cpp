@@ -23,6 +23,8 @@ void askForTPose(TrainingViewConfig& view) {
   view.facing_range = 0.5;
   view.min_distance_m = 1.5;
   view.cut_share = 0.03;
+  view.carried_share = 0;
+  view.obstacle_share = 0;
 }
 
 }  // namespace
@@ -61,9 +63,6 @@ void RenderedImageSource::render(std::size_t i, TrainingImage& image) {
   auto renderer = takeRenderer();
   renderer->render(body, q, random, view);
   giveBack(std::move(renderer));
-  for (std::size_t p = 0; p < view.depth.data.size(); ++p) {
-    if (view.parts.data[p] == 0) view.depth.data[p] = 0;
-  }
   image.depth = std::move(view.depth);
   image.labels = std::move(view.parts);
   image.focal_px = view.camera.fx;
