@@ -148,6 +148,18 @@ class Lab:
         self.kept(folder, lambda part: self.make_run(part, recording, options, truth or recording, evaluate))
         return Run(folder, recording)
 
+    def stats(self, recording, *options):
+        """Tracks what has no truth to evaluate with; how the tracker fared."""
+        path = self.work / "stats" / self.fingerprint / f"{key_of(recording, *options)}.json"
+        return json.loads(self.kept(path, lambda part: self.call(
+            self.experiment, recording, "--stats", part, *options)).read_text())
+
+    def labels(self, recording, *options):
+        """Folder of the label images that tracking gives."""
+        folder = self.work / "labels" / self.fingerprint / key_of(recording, *options)
+        return self.kept(folder, lambda part: self.call(
+            self.experiment, recording, "--labels", part, "--threads", 1, *options))
+
     def make_run(self, part, recording, options, truth, evaluate):
         part.mkdir()
         joints, pose = part / "joints.csv", part / "pose.csv"

@@ -55,6 +55,13 @@ def weighted(entries, key):
     return sum(e[key] * e["compared"] for e in entries) / sum(e["compared"] for e in entries)
 
 
+def tracked_share(lab, recordings):
+    stats = lab.map(lambda r: lab.stats(r, "--threads", 1), recordings)
+    frames, tracked = (sum(s[key] for s in stats) for key in ("frames", "tracked"))
+    return (f"Of the {frames} frames of all {len(recordings)} sequences, those without a usable reference too, "
+            f"{100 * tracked / frames:.1f} % were tracked.")
+
+
 def section(lab):
     recordings = sorted((DATA / "real" / "msr").iterdir())
     if lab.quick:
@@ -79,4 +86,5 @@ def section(lab):
             "and head stand for other places of the body, which is also in \"bones\". Acceleration of the same joints, of "
             "both trackers over the same frames (15 a second): a steadier tracker has less, and motion is the same in both.", "",
             *table(["action", "frames", "agreement [mm]", "bones [deg]", "our acceleration, mean [m/s2]", "theirs, mean",
-                    "ours, median", "theirs, median", "our lost frames"], rows)]
+                    "ours, median", "theirs, median", "our lost frames"], rows),
+            "", tracked_share(lab, recordings)]
