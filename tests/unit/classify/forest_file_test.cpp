@@ -71,17 +71,31 @@ TEST_F(ForestFile, RenumbersAnyOrderOfNodes) {
   EXPECT_EQ(treeDepth(loaded), 2);
 }
 
-TEST_F(ForestFile, ReadsTheVersionBeforeFacings) {
-  const Forest forest = test::randomForest(2, 50, 6);
-  saveForest(forest, path_);
+TEST_F(ForestFile, OtherVersionsAreRefusedByName) {
+  saveForest(test::randomForest(2, 50, 6), path_);
   std::string file = bytes();
-  file[8] = 1;
-  file.erase(16, 4);  // the number of facings
+  file[8] = 2;
   write(file);
-  const Forest loaded = loadForest(path_);
-  EXPECT_EQ(loaded.facings, 1);
-  ASSERT_EQ(loaded.trees.size(), 2U);
-  EXPECT_EQ(loaded.trees[1].leaves, forest.trees[1].leaves);
+  try {
+    loadForest(path_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("version 2"), std::string::npos);
+  }
+}
+
+// Splits that share their probes, as those of a level do, cost two numbers each.
+TEST_F(ForestFile, SharedProbesAreStoredOnce) {
+  Forest own = test::randomForest(1, 2000, 7);
+  Forest shared = own;
+  for (ForestNode& node : shared.trees[0].nodes) {
+    if (node.child > 0) node.u = {static_cast<std::int16_t>(node.u[0] & 7), 1}, node.v = {-1, node.u[0]};
+  }
+  saveForest(own, path_);
+  const std::size_t size_own = bytes().size();
+  saveForest(shared, path_);
+  EXPECT_LT(bytes().size() + 2000 * 4, size_own);
+  EXPECT_EQ(loadForest(path_).trees[0].leaves.size(), shared.trees[0].leaves.size());
 }
 
 TEST_F(ForestFile, SingleLeafIsAForest) {
@@ -136,7 +150,7 @@ std::uint32_t crc32Of(const std::string& text) {
 
 // Damage behind a checksum that is right: the counts themselves must be distrusted.
 TEST_F(ForestFile, ForgedCountsWithARightChecksumAreErrors) {
-  constexpr std::size_t kHeader = 36;
+  constexpr std::size_t kHeader = 44;
   saveForest(test::randomForest(1, 20, 3), path_);
   const std::string whole = bytes();
   const std::size_t counts = kHeader + std::string("random").size();
@@ -160,6 +174,8 @@ TEST_F(ForestFile, ForgedCountsWithARightChecksumAreErrors) {
     EXPECT_THROW(loadForest(path_), Error) << "origin " << value;
     write(forged(24, value));
     EXPECT_THROW(loadForest(path_), Error) << "packed " << value;
+    write(forged(32, value));
+    EXPECT_THROW(loadForest(path_), Error) << "unpacked " << value;
   }
 }
 
