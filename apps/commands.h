@@ -11,6 +11,7 @@ void addCalibrateCommand(CLI::App& app);
 void addCamerasCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addForestCommand(CLI::App& app);
+void addIkCommand(CLI::App& app);
 void addLiveCommand(CLI::App& app);
 void addPosedbCommand(CLI::App& app);
 void addRecordCommand(CLI::App& app);

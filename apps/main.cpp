@@ -26,6 +26,7 @@ void addCommands(CLI::App& app) {
   addEvaluateCommand(app);
   addForestCommand(app);
   addPosedbCommand(app);
+  addIkCommand(app);
   addShapeSpaceCommand(app);
   addServeCommand(app);
   addSynthesizeCommand(app);

@@ -14,7 +14,9 @@
 #include "apps/commands.h"
 #include "apps/progress.h"
 #include "forest/motions/procedural_motions.h"
+#include "forest/pose_model/learn_poses.h"
 #include "forest/pose_model/pose_mixture.h"
+#include "libtracker/core/atomic_file.h"
 #include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/motion/motion_files.h"
@@ -193,6 +195,46 @@ void learn(const LearnOptions& o) {
   fmt::print("file         {}, {:.2f} MB\n", o.out.string(), static_cast<double>(fs::file_size(o.out)) / kMegabyte);
 }
 
+struct LearnPriorsOptions {
+  fs::path database;
+  fs::path out;
+  fs::path check;  // pose database to measure on; empty = none
+  fs::path report;
+  PoseLearningConfig config;
+};
+
+void learnPriors(const LearnPriorsOptions& o) {
+  const PoseDatabase database = loadPoseDatabase(o.database);
+  const PoseDatabase check = o.check.empty() ? PoseDatabase{} : loadPoseDatabase(o.check);
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<Progress> progress;
+  LearnedPoses learned = learnPoses(database, o.config, [&](std::size_t done, std::size_t total) {
+    if (!progress) progress.emplace("steps", total);
+    progress->update(done);
+  });
+  progress.reset();
+  const PoseLearningConfig& c = o.config;
+  learned.origin = fmt::format(
+      "learned from {} poses: {}; components {}, width {}, code {}, latent {}, noise {}, kl weight {}, epochs {}, "
+      "batch {}, learning rate {}, seed {}",
+      database.size(), database.origin, c.components, c.width, c.code, c.latent, c.noise, c.kl_weight, c.epochs,
+      c.batch, c.learning_rate, c.seed);
+  saveLearnedPoses(learned, o.out);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto errors = [&](const char* of, const PoseDatabase& poses) {
+    const PoseLearningError e = learningError(learned, poses);
+    return fmt::format("{:<12} ppca {:.3f}, autoencoder {:.3f}, vae {:.3f}\n", of, e.ppca, e.autoencoder,
+                       e.variational);
+  };
+  std::string report = fmt::format("{}\n\ntime         {:.0f} s\nfile         {:.2f} MB\n", learned.origin, seconds,
+                                   static_cast<double>(fs::file_size(o.out)) / kMegabyte);
+  report += "what is lost on the way through a code, root mean square, in deviations of a DoF:\n";
+  report += errors("learned", database);
+  if (check.size() > 0) report += errors("others", check);
+  fmt::print("{}", report);
+  if (!o.report.empty()) writeFileAtomically(o.report, report);
+}
+
 struct InfoOptions {
   fs::path file;
   bool sources = false;
@@ -255,6 +297,30 @@ void addLearn(CLI::App& posedb) {
   command->callback([o] { learn(*o); });
 }
 
+void addLearnPriors(CLI::App& posedb) {
+  auto* command = posedb.add_subcommand("learn-priors", "Learn what `ik` knows of natural poses: statistics, networks");
+  auto o = std::make_shared<LearnPriorsOptions>();
+  command->add_option("--posedb", o->database, "Pose database to learn from")->required()->type_name("DB");
+  command->add_option("--out", o->out, "File of learned poses to write")->required()->type_name("FILE");
+  command->add_option("--check", o->check, "Pose database to measure on, of other motions")->type_name("DB");
+  command->add_option("--report", o->report, "Also write what is printed to this file")->type_name("FILE");
+  const auto option = [&](const char* name, auto& value, const char* text) {
+    command->add_option(name, value, text)->capture_default_str();
+  };
+  option("--components", o->config.components, "Gaussians of the mixture to start from; small ones are dissolved");
+  option("--width", o->config.width, "Neurons of each hidden layer");
+  option("--code", o->config.code, "Size of the autoencoder's code");
+  option("--latent", o->config.latent, "Size of the variational autoencoder's code");
+  option("--noise", o->config.noise, "Noise on the autoencoder's inputs [deviations]; 0: a plain autoencoder");
+  option("--kl-weight", o->config.kl_weight, "Of the Kullback-Leibler divergence against the squared error of a DoF");
+  option("--epochs", o->config.epochs, "Passes over all poses");
+  option("--batch", o->config.batch, "Poses of a step");
+  option("--learning-rate", o->config.learning_rate, "Of the first steps; falls to 0 along half a cosine");
+  option("--seed", o->config.seed, "Of first weights, order and noise");
+  option("--threads", o->config.threads, "Threads; the result does not depend on it");
+  command->callback([o] { learnPriors(*o); });
+}
+
 void addInfo(CLI::App& posedb) {
   auto* command = posedb.add_subcommand("info", "What a pose database holds");
   auto o = std::make_shared<InfoOptions>();
@@ -270,6 +336,7 @@ void addPosedbCommand(CLI::App& app) {
   posedb->require_subcommand(1);
   addBuild(*posedb);
   addLearn(*posedb);
+  addLearnPriors(*posedb);
   addInfo(*posedb);
 }
 

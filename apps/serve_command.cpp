@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "apps/commands.h"
+#include "apps/ik_request.h"
 #include "apps/stop_request.h"
 #include "apps/view/live_page.h"
 #include "apps/view_options.h"
@@ -12,9 +13,18 @@
 namespace depthmocap {
 namespace {
 
-void serve(const ViewOptions& options) {
+struct ServeOptions {
+  ViewOptions view;
+  IkOptions ik;
+};
+
+void serve(const ServeOptions& options) {
   const StopRequest on_ctrl_c;
-  LivePage page(webServerConfig(options), pageFolder(), {"idle", "no source", {}});
+  const IkRequests ik(options.ik);
+  LivePage page(webServerConfig(options.view), pageFolder(), {"idle", "no source", {}});
+  page.server().onPostAside("/ik", [&](const std::string& body) {
+    return WebContent{"application/json", ik.answer(body)};
+  });
   page.start();
   std::cerr << "serving " << page.server().url() << std::endl;
   while (!StopRequest::made()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -24,14 +34,19 @@ void serve(const ViewOptions& options) {
 
 void addServeCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("serve", "Serves HTTP and the live page, until Ctrl-C.");
-  const auto options = std::make_shared<ViewOptions>();
-  command->add_option("--port", options->port, "Port; 0: any that is free")
+  const auto options = std::make_shared<ServeOptions>();
+  command->add_option("--port", options->view.port, "Port; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  command->add_option("--address", options->address, "Numeric address to listen on; others than 127.0.0.1 need a token")
+  command
+      ->add_option("--address", options->view.address,
+                   "Numeric address to listen on; others than 127.0.0.1 need a token")
       ->capture_default_str();
-  command->add_option("--token", options->token, "Token that requests must show (default: a random one where needed)");
-  command->footer("GET /health answers 200. Example:\n  depthmocap serve --port 8010");
+  command->add_option("--token", options->view.token,
+                      "Token that requests must show (default: a random one where needed)");
+  addIkOptions(*command, options->ik);
+  command->footer(
+      "GET /health answers 200; POST /ik solves for a pose (docs/ik.md). Example:\n  depthmocap serve --port 8010");
   command->callback([options] { serve(*options); });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -81,7 +83,9 @@ struct WebServer::Impl {
   };
   std::map<std::string, File> files;
   std::map<std::pair<http::verb, std::string>, Handler> handlers;
+  std::set<std::string> aside;  // paths whose POST is answered by the worker
   StreamHub stream;
+  asio::thread_pool worker{1};
   std::thread thread;
 };
 
@@ -117,9 +121,20 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (server_.connections > server_.config.max_connections) {
       return write(responseOf(errorContent(503, "too many connections"), parser_->get()));
     }
-    const Request request = parser_->release();
+    Request request = parser_->release();
     if (websocket::is_upgrade(request) && pathOf(view(request.target())) == kStreamPath) return upgrade(request);
+    if (request.method() == http::verb::post && server_.aside.contains(std::string(pathOf(view(request.target()))))) {
+      return answerAside(std::move(request));
+    }
     write(responseOf(server_.answer(request), request));
+  }
+  void answerAside(Request request) {
+    // The connection goes over to the worker and back whole: it must end on the server's thread.
+    asio::post(server_.worker, [self = shared_from_this(), request = std::move(request)]() mutable {
+      self->response_ = responseOf(self->server_.answer(request), request);
+      asio::io_context& io = self->server_.io;
+      asio::post(io, [self = std::move(self)] { self->send(); });
+    });
   }
   void upgrade(const Request& request) {
     const std::string refused = server_.refusalOf(request);
@@ -129,6 +144,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
   void write(Response response) {
     response_ = std::move(response);
+    send();
+  }
+  void send() {
     stream_.expires_after(kRequestTime);
     http::async_write(stream_, response_, [self = shared_from_this()](error_code failure, std::size_t) {
       if (failure) return;
@@ -215,6 +233,8 @@ WebServer::WebServer(WebServerConfig config) : impl_(std::make_unique<Impl>(std:
 
 WebServer::~WebServer() {
   if (!impl_->thread.joinable()) return;
+  impl_->worker.stop();
+  impl_->worker.join();
   impl_->io.stop();
   impl_->thread.join();
   impl_->stream.clear();
@@ -232,6 +252,11 @@ void WebServer::onPost(const std::string& path, Handler handler) {
   impl_->handlers[{http::verb::post, path}] = std::move(handler);
 }
 
+void WebServer::onPostAside(const std::string& path, Handler handler) {
+  onPost(path, std::move(handler));
+  impl_->aside.insert(path);
+}
+
 void WebServer::onText(TextHandler handler) {
   impl_->stream.on_text = std::move(handler);
 }
@@ -242,6 +267,7 @@ void WebServer::setGreeting(std::function<std::string()> greeting) {
 
 void WebServer::start() {
   impl_->accept();
+  asio::post(impl_->worker, runInBackground);
   impl_->thread = std::thread([this] {
     runInBackground();
     impl_->io.run();

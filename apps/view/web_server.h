@@ -35,7 +35,7 @@ struct WebServerConfig {
 // server's own: pages of others cannot reach it. What is wrong gets a 4xx answer with {"error": "..."}.
 class WebServer {
  public:
-  // Called on the server's thread. A handler that throws Error answers 400 with its text.
+  // Called on the server's thread, but for onPostAside(). A handler that throws Error answers 400 with its text.
   using Handler = std::function<WebContent(const std::string& body)>;
   // A text message of a client; the answer, if any, goes to that client.
   using TextHandler = std::function<std::string(const std::string& text)>;
@@ -51,6 +51,9 @@ class WebServer {
   void serveFile(const std::string& path, WebContent content, bool open = false);
   void onGet(const std::string& path, Handler handler);
   void onPost(const std::string& path, Handler handler);
+  // The same for what takes longer than a stream may wait: the handler runs on a thread of its own, one request at a
+  // time, in the background.
+  void onPostAside(const std::string& path, Handler handler);
   void onText(TextHandler handler);
   // What every client of /stream is sent first.
   void setGreeting(std::function<std::string()> greeting);

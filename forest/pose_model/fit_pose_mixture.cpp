@@ -8,6 +8,7 @@
 #include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"
+#include "libtracker/skeleton/local_prior.h"
 
 namespace depthmocap {
 namespace {
@@ -102,6 +103,8 @@ PoseMixture::Component fitComponent(const Poses& poses, const std::vector<std::s
     component.basis.col(k) = solver.eigenvectors().col(column).cast<float>();
     component.deviation[k] = static_cast<float>(std::sqrt(std::max(0.0, solver.eigenvalues()[column])));
   }
+  const double others = solver.eigenvalues().head(kDofCount - PoseMixture::kDims).cwiseMax(0).sum();
+  component.residual = static_cast<float>(std::sqrt(others / (kShapeDofCount - PoseMixture::kDims)));
   return component;
 }
 

@@ -21,6 +21,7 @@ struct PoseMixture {
     Eigen::Matrix<float, kDofCount, 1> mean = Eigen::Matrix<float, kDofCount, 1>::Zero();           // [rad]
     Eigen::Matrix<float, kDofCount, kDims> basis = Eigen::Matrix<float, kDofCount, kDims>::Zero();  // orthonormal
     Eigen::Matrix<float, kDims, 1> deviation = Eigen::Matrix<float, kDims, 1>::Zero();              // [rad]
+    float residual = 0;  // [rad] deviation in each other direction of kShapeDofs; of a fit only, no file keeps it
   };
   std::vector<Component> components;
   std::string origin;  // one line: data and command

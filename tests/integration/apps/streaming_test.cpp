@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 
 #include "libtracker/recording/track_files.h"
+#include "tests/support/connection.h"
 #include "tests/support/recording_excerpt.h"
 #include "tests/support/run_program.h"
 
@@ -121,6 +122,29 @@ TEST_F(Streaming, InterruptedReplayCompletesItsFiles) {
   EXPECT_LT(rows.size(), 120U);
   EXPECT_EQ(std::stoul(lineWith(readBytes(folder_ / "m.bvh"), "Frames:").substr(7)), rows.size());
   EXPECT_EQ(readBytes(folder_ / "m.glb").substr(0, 4), "glTF");
+}
+
+TEST_F(Streaming, ServePosesABodyOverHttp) {
+  const BackgroundProgram program("serve --port 0", folder_ / "errors");
+  const std::string port = program.waitFor("http://127.0.0.1:");
+  const auto post = [&](const std::string& body) {
+    const Connection connection(static_cast<std::uint16_t>(std::stoi(port)));
+    connection.send("POST /ik HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(std::stoi(port)) +
+                    "\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+    const std::string answer = connection.receive(1 << 20);
+    return std::pair(answer.substr(0, 12), nlohmann::json::parse(answer.substr(answer.find("\r\n\r\n") + 4)));
+  };
+  const auto [status, answer] =
+      post(R"({"targets": {"left_wrist": [0.5, 1.2, 0.3], "head": [0, 1.6, 0]}, "prior": "vae"})");
+  EXPECT_EQ(status, "HTTP/1.1 200");
+  EXPECT_LT(answer["residual_m"].get<double>(), 0.05);
+  EXPECT_EQ(answer["joints"]["left_wrist"].size(), 3U);
+  EXPECT_EQ(answer["rotations"]["lradius"].size(), 4U);
+  const auto [bad_status, bad] = post("{}");
+  EXPECT_EQ(bad_status, "HTTP/1.1 400");
+  EXPECT_TRUE(bad["error"].is_string());
+  EXPECT_EQ(post(std::string(100000, ' ')).first, "HTTP/1.1 413");
+  EXPECT_EQ(program.interrupt(), 0);
 }
 
 TEST_F(Streaming, PageDoesNotChangeFiles) {

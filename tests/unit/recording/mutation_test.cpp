@@ -4,6 +4,7 @@
 
 #include "libtracker/core/error.h"
 #include "libtracker/core/random.h"
+#include "libtracker/ik/ik_files.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
 #include "tests/support/temporary_folder.h"
@@ -81,6 +82,16 @@ TEST(MutatedPoseFile, IsReadOrRefusedWithAnError) {
   const TemporaryFolder folder;
   expectOnlyErrors(folder / "pose.csv", readBytes(testData("tracks/pose_good.csv")), [&] {
     for (const PoseRow& row : readPoseFile(folder / "pose.csv")) ASSERT_TRUE(row.q.allFinite());
+  });
+}
+
+TEST(MutatedTargetsFile, IsReadOrRefusedWithAnError) {
+  const TemporaryFolder folder;
+  expectOnlyErrors(folder / "targets.csv", readBytes(testData("ik/targets_good.csv")), [&] {
+    for (const PoseTargets& pose : readTargetsFile(folder / "targets.csv")) {
+      ASSERT_GT(pose.targets.count(), 0);
+      ASSERT_TRUE(pose.targets.p_world.allFinite());
+    }
   });
 }
 

@@ -1,56 +1,19 @@
 #include "apps/view/web_server.h"
 
-#include <array>
+#include <atomic>
 #include <chrono>
-#include <cstring>
 #include <thread>
 #include <vector>
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <sys/time.h>
-#include <unistd.h>
 
 #include "libtracker/core/error.h"
 #include "libtracker/core/random.h"
+#include "tests/support/connection.h"
 #include "tests/support/temporary_folder.h"
 
 namespace depthmocap {
 namespace {
-
-// A bare TCP connection: what a hostile client has.
-class Connection {
- public:
-  explicit Connection(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    const timeval wait{1, 0};
-    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(port);
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
-  }
-  ~Connection() { ::close(socket_); }
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
-
-  void send(const std::string& bytes) const { ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
-  // At least `size` bytes, or what comes until the other side ends.
-  std::string receive(std::size_t size) const {
-    std::string bytes;
-    std::array<char, 65536> buffer{};
-    while (bytes.size() < size) {
-      const ssize_t got = ::recv(socket_, buffer.data(), buffer.size(), 0);
-      if (got <= 0) break;
-      bytes.append(buffer.data(), static_cast<std::size_t>(got));
-    }
-    return bytes;
-  }
-
- private:
-  int socket_;
-};
 
 class RunningServer : public testing::Test {
  protected:
@@ -61,6 +24,11 @@ class RunningServer : public testing::Test {
     server_->onPost("/echo", [](const std::string& body) {
       if (body == "bad") throw Error("is bad", "body");
       return WebContent{"text/plain", body};
+    });
+    server_->onPostAside("/slow", [this](const std::string& body) {
+      if (body == "bad") throw Error("is bad", "body");
+      for (int i = 0; i < 500 && !may_end_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      return WebContent{"text/plain", "slow " + body};
     });
     server_->onText([](const std::string& text) { return "got " + text; });
     server_->setGreeting([] { return std::string("hello"); });
@@ -94,6 +62,7 @@ class RunningServer : public testing::Test {
   // Still well after what a test did to it.
   ~RunningServer() override { EXPECT_NE(ask("GET", "/").find("<p>page</p>"), std::string::npos); }
 
+  std::atomic<bool> may_end_{false};
   std::unique_ptr<WebServer> server_;
 };
 
@@ -115,6 +84,27 @@ TEST_F(RunningServer, AnswersAndRefuses) {
   const std::string bad = ask("POST", "/echo", "", "bad");
   EXPECT_EQ(bad.rfind("HTTP/1.1 400", 0), 0U);
   EXPECT_NE(bad.find(R"({"error":"body: is bad"})"), std::string::npos) << bad;
+}
+
+TEST_F(RunningServer, AnswersOthersWhileASlowHandlerWorks) {
+  const Connection slow(server_->port());
+  slow.send("POST /slow HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\nContent-Length: 4\r\n\r\nwork");
+  EXPECT_NE(ask("GET", "/").find("<p>page</p>"), std::string::npos);
+  EXPECT_NE(ask("POST", "/echo", "", "some text").find("some text"), std::string::npos);
+  may_end_ = true;
+  EXPECT_NE(slow.receive(1 << 20).find("slow work"), std::string::npos);
+  EXPECT_EQ(ask("POST", "/slow", "", "bad").rfind("HTTP/1.1 400", 0), 0U);
+  EXPECT_EQ(ask("POST", "/slow", "Origin: http://evil.example\r\n", "x").rfind("HTTP/1.1 403", 0), 0U);
+  EXPECT_EQ(ask("GET", "/slow").rfind("HTTP/1.1 405", 0), 0U);
+}
+
+TEST_F(RunningServer, EndsWhileASlowHandlerWorks) {
+  const Connection slow(server_->port());
+  slow.send("POST /slow HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: 4\r\n\r\nwork");
+  EXPECT_NE(ask("GET", "/").find("<p>page</p>"), std::string::npos);
+  may_end_ = true;
+  server_.reset();
+  start({.port = 0});
 }
 
 TEST_F(RunningServer, BoundsWhatIsSent) {

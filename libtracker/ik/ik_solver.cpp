@@ -1,0 +1,146 @@
+#include "libtracker/ik/ik_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "libtracker/core/check.h"
+#include "libtracker/core/error.h"
+#include "libtracker/ik/classic_solvers.h"
+#include "libtracker/ik/pose_problem.h"
+#include "libtracker/skeleton/joint_limits.h"
+
+namespace depthmocap {
+namespace {
+
+// Of the length of the variational code against what is lost on the way through it.
+constexpr double kCodeWeight = 0.2;
+
+std::unique_ptr<const PosePrior> priorOf(IkPrior prior, const LearnedPoses& learned) {
+  switch (prior) {
+    case IkPrior::Ppca:
+      return std::make_unique<GaussianPrior>(std::vector{learned.ppca});
+    case IkPrior::Gmm:
+      return std::make_unique<GaussianPrior>(learned.mixture);
+    case IkPrior::Autoencoder:
+      return std::make_unique<AutoencoderPrior>(learned.scale, learned.autoencoder);
+    case IkPrior::Vae:
+      return std::make_unique<VariationalPrior>(learned.scale, learned.variational, kCodeWeight);
+    case IkPrior::None:
+      break;
+  }
+  return nullptr;
+}
+
+struct Candidate {
+  Pose q;
+  double energy = 0;
+};
+
+}  // namespace
+
+void IkConfig::validate() const {
+  if (method != IkMethod::Lm && prior != IkPrior::None) throw Error("prior needs the method lm", "IkConfig");
+  if (!(weight_m >= 0)) throw Error("weight_m must not be negative", "IkConfig");
+  if (starts < 1) throw Error("starts must be at least 1", "IkConfig");
+  if (lm.max_iterations < 1) throw Error("lm.max_iterations must be at least 1", "IkConfig");
+  if (!(lm.tau > 0)) throw Error("lm.tau must be positive", "IkConfig");
+}
+
+struct IkSolver::Impl {
+  Impl(const Skeleton& s, const IkConfig& c, std::shared_ptr<const LearnedPoses> l)
+      : skeleton(s), config(c), learned(std::move(l)) {
+    config.validate();
+    DMC_CHECK(config.prior == IkPrior::None || learned != nullptr);
+    if (learned != nullptr) prior = priorOf(config.prior, *learned);
+  }
+
+  [[nodiscard]] std::vector<Candidate> starts(const JointTargets& targets) const;
+  [[nodiscard]] IkResult solveLm(const JointTargets& targets) const;
+  [[nodiscard]] IkResult solveFrom(const Pose& start, const JointTargets& targets, double& energy) const;
+
+  Skeleton skeleton;
+  IkConfig config;
+  std::shared_ptr<const LearnedPoses> learned;
+  std::unique_ptr<const PosePrior> prior;
+};
+
+std::vector<Candidate> IkSolver::Impl::starts(const JointTargets& targets) const {
+  if (config.prior == IkPrior::None) return {{placedAtTargets(skeleton, targets, Pose::Zero()), 0}};
+  TargetTerm term(skeleton, targets);
+  std::vector<Candidate> candidates;
+  for (const PoseGaussian& typical : learned->mixture) {
+    const Pose q = clampedToLimits(placedAtTargets(skeleton, targets, withShape(Pose::Zero(), typical.mean)));
+    candidates.push_back({q, term.rms(q)});
+  }
+  const std::size_t count = std::min(candidates.size(), static_cast<std::size_t>(config.starts));
+  std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end(),
+                    [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
+  candidates.resize(count);
+  return candidates;
+}
+
+IkResult IkSolver::Impl::solveFrom(const Pose& start, const JointTargets& targets, double& energy) const {
+  PoseProblem problem(skeleton, targets, prior.get(), config.weight_m);
+  Eigen::VectorXd x = start;
+  const LmSummary summary = levenbergMarquardt(problem, config.lm, x);
+  energy = summary.energy;
+  return {x, 0, summary.iterations};
+}
+
+IkResult IkSolver::Impl::solveLm(const JointTargets& targets) const {
+  IkResult best;
+  double least = 0;
+  int iterations = 0;
+  bool is_first = true;
+  for (const Candidate& start : starts(targets)) {
+    double energy = 0;
+    const IkResult result = solveFrom(start.q, targets, energy);
+    iterations += result.iterations;
+    if (is_first || energy < least) {
+      best = result;
+      least = energy;
+    }
+    is_first = false;
+  }
+  best.iterations = iterations;
+  best.residual_m = TargetTerm(skeleton, targets).rms(best.q);
+  return best;
+}
+
+IkSolver::IkSolver(const Skeleton& skeleton, const IkConfig& config, std::shared_ptr<const LearnedPoses> learned)
+    : impl_(std::make_unique<const Impl>(skeleton, config, std::move(learned))) {}
+IkSolver::~IkSolver() = default;
+IkSolver::IkSolver(IkSolver&&) noexcept = default;
+
+const Skeleton& IkSolver::skeleton() const {
+  return impl_->skeleton;
+}
+
+IkPrior IkSolver::prior() const {
+  return impl_->config.prior;
+}
+
+IkResult IkSolver::solve(const JointTargets& targets) const {
+  const Pose start = placedAtTargets(impl_->skeleton, targets, Pose::Zero());
+  IkResult result;
+  switch (impl_->config.method) {
+    case IkMethod::Lm:
+      result = impl_->solveLm(targets);
+      break;
+    case IkMethod::Jacobian:
+      result = solveDampedLeastSquares(impl_->skeleton, targets, start);
+      break;
+    case IkMethod::Ccd:
+      result = solveCyclicDescent(impl_->skeleton, targets, start);
+      break;
+    case IkMethod::Fabrik:
+      result = solveFabrik(impl_->skeleton, targets, start);
+      break;
+  }
+  result.q[kRootRy] = std::remainder(result.q[kRootRy], 2.0 * std::numbers::pi);
+  return result;
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,56 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "libtracker/ik/ik_result.h"
+#include "libtracker/ik/joint_targets.h"
+#include "libtracker/ik/learned_poses.h"
+#include "libtracker/ik/levenberg_marquardt.h"
+#include "libtracker/skeleton/skeleton.h"
+
+namespace depthmocap {
+
+// Solvers. Lm is algorithm (8); the others are the classic baselines and know no prior.
+enum class IkMethod { Lm, Jacobian, Ccd, Fabrik };
+inline constexpr std::array<std::string_view, 4> kIkMethodNames = {"lm", "jacobian", "ccd", "fabrik"};
+
+// What says how natural a pose is; see gaussian_prior.h and network_priors.h.
+enum class IkPrior { None, Ppca, Gmm, Autoencoder, Vae };
+inline constexpr int kIkPriorCount = 5;
+inline constexpr std::array<std::string_view, kIkPriorCount> kIkPriorNames = {"none", "ppca", "gmm", "autoencoder",
+                                                                              "vae"};
+
+struct IkConfig {
+  IkMethod method = IkMethod::Lm;
+  IkPrior prior = IkPrior::None;  // with Lm only
+  // [m] (>= 0) how far a joint may stay from its target for one unit of the prior. For exact targets; half of what each
+  // coordinate is off by suits others.
+  double weight_m = 0.001;
+  int starts = 4;  // (>= 1) typical poses, those nearest to the targets, that a solve with a prior starts from
+  LmConfig lm = {};
+  void validate() const;  // throws Error naming field, value and rule
+};
+
+// Finds the pose of a body whose joints lie at the targets: (7). Joint limits hold; where targets are out of reach it
+// is the nearest pose that is found. Without a prior a solve starts from the zero pose, as in the paper, turned and
+// moved to the targets; with one, from the means of the mixture that lie nearest to the targets. Constant after
+// construction: threads may share one. Deterministic.
+class IkSolver {
+ public:
+  // `learned` may be nullptr where config.prior is None. Throws as IkConfig::validate.
+  IkSolver(const Skeleton& skeleton, const IkConfig& config, std::shared_ptr<const LearnedPoses> learned);
+  ~IkSolver();
+  IkSolver(IkSolver&&) noexcept;
+
+  [[nodiscard]] const Skeleton& skeleton() const;
+  [[nodiscard]] IkPrior prior() const;
+  // At least one target.
+  [[nodiscard]] IkResult solve(const JointTargets& targets) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace depthmocap

@@ -1,0 +1,30 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "libtracker/core/joints.h"
+
+namespace depthmocap {
+
+// Where some joints of one body should be: the input of inverse kinematics.
+struct JointTargets {
+  JointPositions p_world = JointPositions::Zero();  // [m] y up; the columns of the joints that are given
+  std::array<bool, kJointCount> given{};
+
+  [[nodiscard]] bool has(Joint joint) const { return given[static_cast<std::size_t>(joint)]; }
+  [[nodiscard]] int count() const;
+  // Adds a target [m]. Empty, or why it is refused: given before, not finite, farther than kFarthestTarget_m from the
+  // origin, or farther than kWidestTargets_m from another target, which no person is (millimetres taken for metres).
+  std::string add(Joint joint, const Eigen::Vector3d& p_world_target);
+};
+
+inline constexpr double kFarthestTarget_m = 100.0;
+inline constexpr double kWidestTargets_m = 4.0;
+
+// The joint of this name (kJointNames); nothing if there is none.
+std::optional<Joint> jointNamed(std::string_view name);
+
+}  // namespace depthmocap

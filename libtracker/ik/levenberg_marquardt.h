@@ -1,0 +1,40 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace depthmocap {
+
+// A problem min 1/2 |E(x)|^2 with lower <= x <= upper.
+class LeastSquaresProblem {
+ public:
+  LeastSquaresProblem() = default;
+  virtual ~LeastSquaresProblem() = default;
+  LeastSquaresProblem(const LeastSquaresProblem&) = delete;
+  LeastSquaresProblem& operator=(const LeastSquaresProblem&) = delete;
+
+  [[nodiscard]] virtual int parameters() const = 0;
+  [[nodiscard]] virtual int residuals() const = 0;
+  // E: residuals(); J: residuals() x parameters(), d E / d x, or nullptr.
+  virtual void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& E, Eigen::MatrixXd* J) = 0;
+  // Infinite where there is no bound.
+  [[nodiscard]] virtual Eigen::VectorXd lower() const = 0;
+  [[nodiscard]] virtual Eigen::VectorXd upper() const = 0;
+};
+
+struct LmConfig {
+  double tau = 1e-3;             // (> 0) first damping over the largest diagonal entry of J^T J
+  int max_iterations = 60;       // (>= 1) steps tried
+  double step_tolerance = 1e-7;  // (>= 0) stop at a shorter step (the paper's epsilon_2)
+  double gain_tolerance = 1e-5;  // (>= 0) stop where a step lowers |E|^2 by a smaller share
+};
+
+struct LmSummary {
+  double energy = 0;   // 1/2 |E|^2
+  int iterations = 0;  // steps tried
+};
+
+// Algorithm (8): Levenberg-Marquardt with the damping of Nielsen as Lourakis 2005 gives it. Beyond the paper: bounds. A
+// parameter at its bound that the gradient pushes outwards rests for the step; what a step takes beyond a bound ends
+// there. x: the start, moved within the bounds first; then the result.
+LmSummary levenbergMarquardt(LeastSquaresProblem& problem, const LmConfig& config, Eigen::VectorXd& x);
+
+}  // namespace depthmocap

@@ -1,0 +1,52 @@
+#pragma once
+#include "libtracker/ik/dense_network.h"
+#include "libtracker/ik/pose_prior.h"
+
+namespace depthmocap {
+
+// What networks see of a pose: each DoF about its mean over its deviation.
+struct PoseScale {
+  PoseShape mean = PoseShape::Zero();       // [rad]
+  PoseShape deviation = PoseShape::Ones();  // [rad] (> 0)
+
+  [[nodiscard]] Eigen::VectorXf scaled(const PoseShape& shape) const;
+  [[nodiscard]] PoseShape unscaled(const Eigen::VectorXf& values) const;
+};
+
+struct PoseCoder {
+  DenseNetwork encoder;  // scaled pose to code; that of the VAE to the code's mean, then the logarithm of its variance
+  DenseNetwork decoder;  // code to scaled pose
+};
+
+// g of (7): the difference of a pose from its reconstruction by an autoencoder, theta - theta^, in units of each DoF's
+// deviation. A row a DoF in place of the paper's one row of its square: the same minimum where it is 0, but a quadratic
+// bowl, not a quartic one, and curvature that Levenberg-Marquardt sees.
+class AutoencoderPrior final : public PosePrior {
+ public:
+  AutoencoderPrior(PoseScale scale, PoseCoder coder) : scale_(std::move(scale)), coder_(std::move(coder)) {}
+
+  [[nodiscard]] int rows() const override { return kShapeDofCount; }
+  void evaluate(const PoseShape& shape, Eigen::Ref<Eigen::VectorXd> r, Eigen::MatrixXd* J) const override;
+
+ private:
+  PoseScale scale_;
+  PoseCoder coder_;
+};
+
+// The same with a variational autoencoder, and the length of the code: a pose is natural that lies near what its code
+// stands for, and whose code lies near the middle of N(0, 1) (section C's |z|^2, with code_weight^2).
+class VariationalPrior final : public PosePrior {
+ public:
+  VariationalPrior(PoseScale scale, PoseCoder coder, double code_weight)
+      : scale_(std::move(scale)), coder_(std::move(coder)), code_weight_(code_weight) {}
+
+  [[nodiscard]] int rows() const override { return kShapeDofCount + coder_.decoder.inputs(); }
+  void evaluate(const PoseShape& shape, Eigen::Ref<Eigen::VectorXd> r, Eigen::MatrixXd* J) const override;
+
+ private:
+  PoseScale scale_;
+  PoseCoder coder_;
+  double code_weight_;
+};
+
+}  // namespace depthmocap

@@ -1,0 +1,132 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "libtracker/ik/pose_problem.h"
+#include "libtracker/skeleton/joint_limits.h"
+#include "tests/gradient_check.h"
+#include "tests/unit/ik/some_learned_poses.h"
+
+namespace depthmocap {
+namespace {
+
+// Networks work in single precision, so differences need a larger step.
+constexpr double kStep = 1e-2;
+constexpr double kTolerance = 3e-3;
+
+template <typename Problem>
+void expectGradient(Problem& problem, const Eigen::VectorXd& x, double tolerance, double step) {
+  const auto residual = [&](const Eigen::VectorXd& at) {
+    Eigen::VectorXd E(problem.residuals());
+    problem.evaluate(at, E, nullptr);
+    return E;
+  };
+  const auto jacobian = [&](const Eigen::VectorXd& at) {
+    Eigen::VectorXd E(problem.residuals());
+    Eigen::MatrixXd J(problem.residuals(), problem.parameters());
+    J.setConstant(std::nan(""));
+    problem.evaluate(at, E, &J);
+    return J;
+  };
+  expectJacobianMatches(x, residual, jacobian, tolerance, step);
+}
+
+class Priors : public testing::Test {
+ protected:
+  Priors() {
+    Random random(3);
+    q_.tail<kDofCount - kFirstRotationDof>().setConstant(0.1);
+    q_ = withShape(q_, someShape(random, 0.1));
+    q_ = clampedToLimits(q_);
+    const JointPositions joints = jointPositions(skeleton_, Pose::Zero());
+    for (const Joint joint : {Joint::LeftWrist, Joint::RightToe, Joint::Head}) {
+      EXPECT_EQ(targets_.add(joint, joints.col(static_cast<int>(joint))), "");
+    }
+  }
+  Skeleton skeleton_ = makeSkeleton(BoneLengths{});
+  LearnedPoses learned_ = someLearnedPoses();
+  JointTargets targets_;
+  Pose q_ = Pose::Zero();
+};
+
+TEST_F(Priors, GradientOfTheTargets) {
+  PoseProblem problem(skeleton_, targets_);
+  expectGradient(problem, q_, 1e-6, 1e-5);
+}
+
+TEST_F(Priors, GradientOfPpcaAndMixture) {
+  for (const auto& components : {std::vector{learned_.ppca}, learned_.mixture}) {
+    const GaussianPrior prior(components);
+    PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+    expectGradient(problem, q_, 1e-6, 1e-5);
+  }
+}
+
+TEST_F(Priors, GradientOfTheAutoencoder) {
+  const AutoencoderPrior prior(learned_.scale, learned_.autoencoder);
+  PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+  expectGradient(problem, q_, kTolerance, kStep);
+}
+
+TEST_F(Priors, GradientOfTheVariationalAutoencoder) {
+  const VariationalPrior prior(learned_.scale, learned_.variational, 0.4);
+  ASSERT_EQ(prior.rows(), kShapeDofCount + 5);
+  PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+  expectGradient(problem, q_, kTolerance, kStep);
+}
+
+TEST_F(Priors, PpcaIsTheMahalanobisDistance) {
+  const PoseGaussian& g = learned_.ppca;
+  Eigen::MatrixXd covariance = g.residual_rad * g.residual_rad * Eigen::MatrixXd::Identity(32, 32);
+  for (int k = 0; k < 3; ++k) covariance(3 * k + 4, 3 * k + 4) = g.deviation[k] * g.deviation[k];
+  const GaussianPrior prior({g});
+  Eigen::VectorXd r(prior.rows());
+  prior.evaluate(shapeOf(q_), r, nullptr);
+  const PoseShape d = shapeOf(q_) - g.mean;
+  EXPECT_NEAR(r.squaredNorm(), d.dot(covariance.ldlt().solve(d)), 1e-9);
+}
+
+TEST_F(Priors, MixtureTakesTheMoreProbableGaussian) {
+  PoseGaussian rare = learned_.ppca;
+  rare.weight = 0.2;
+  PoseGaussian often = rare;
+  often.weight = 0.8;
+  often.mean[5] += 1;  // across the basis: 10 deviations away
+  const GaussianPrior prior({rare, often});
+  Eigen::VectorXd r(prior.rows());
+  prior.evaluate(often.mean, r, nullptr);
+  EXPECT_NEAR(r.squaredNorm(), 0, 1e-12);
+  prior.evaluate(rare.mean, r, nullptr);
+  EXPECT_NEAR(r.squaredNorm(), 2 * std::log(4.0), 1e-9);
+}
+
+TEST_F(Priors, PlaceAndHeadingHaveNoPrior) {
+  const GaussianPrior prior({learned_.ppca});
+  PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+  Eigen::VectorXd E(problem.residuals());
+  Eigen::MatrixXd J(problem.residuals(), kDofCount);
+  problem.evaluate(q_, E, &J);
+  for (const int dof : {kRootTx, kRootTy, kRootTz, kRootRy}) {
+    EXPECT_EQ(J.col(dof).tail(prior.rows()).norm(), 0);
+    EXPECT_GT(J.col(dof).norm(), 0);
+  }
+}
+
+TEST(DenseNetwork, JacobianFollowsEitherChain) {
+  Random random(5);
+  for (const auto& widths : {std::vector{4, 9, 7}, std::vector{7, 9, 8, 4}}) {
+    const DenseNetwork network = someNetwork(widths, random);
+    const auto residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      return network.evaluate(x.cast<float>()).cast<double>();
+    };
+    const auto jacobian = [&](const Eigen::VectorXd& x) -> Eigen::MatrixXd {
+      Eigen::MatrixXf J;
+      (void)network.evaluate(x.cast<float>(), &J);
+      return J.cast<double>();
+    };
+    expectJacobianMatches(Eigen::VectorXd::LinSpaced(network.inputs(), -1, 1), residual, jacobian, kTolerance, kStep);
+  }
+}
+
+}  // namespace
+}  // namespace depthmocap
