@@ -11,7 +11,7 @@
 
 namespace depthmocap {
 
-// Solvers. Lm is algorithm (8); the others are the classic baselines and know no prior.
+// Solvers. Lm is that of MNN-IK (levenberg_marquardt.h); the others are the classic baselines and know no prior.
 enum class IkMethod { Lm, Jacobian, Ccd, Fabrik };
 inline constexpr std::array<std::string_view, 4> kIkMethodNames = {"lm", "jacobian", "ccd", "fabrik"};
 
@@ -32,10 +32,10 @@ struct IkConfig {
   void validate() const;  // throws Error naming field, value and rule
 };
 
-// Finds the pose of a body whose joints lie at the targets: (7). Joint limits hold; where targets are out of reach it
-// is the nearest pose that is found. Without a prior a solve starts from the zero pose, as in the paper, turned and
-// moved to the targets; with one, from the means of the mixture that lie nearest to the targets. Constant after
-// construction: threads may share one. Deterministic.
+// Finds the pose of a body whose joints lie at the targets: (3.1) of MNN-IK. Joint limits hold; where targets are out
+// of reach it is the nearest pose that is found. Without a prior a solve starts from the zero pose, as in the paper,
+// turned and moved to the targets; with one, from the means of the mixture that lie nearest to the targets. Constant
+// after construction: threads may share one. Deterministic.
 class IkSolver {
  public:
   // `learned` may be nullptr where config.prior is None. Throws as IkConfig::validate.

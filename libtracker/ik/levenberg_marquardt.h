@@ -32,9 +32,9 @@ struct LmSummary {
   int iterations = 0;  // steps tried
 };
 
-// Algorithm (8): Levenberg-Marquardt with the damping of Nielsen as Lourakis 2005 gives it. Beyond the paper: bounds. A
-// parameter at its bound that the gradient pushes outwards rests for the step; what a step takes beyond a bound ends
-// there. x: the start, moved within the bounds first; then the result.
+// Algorithm 1 of MNN-IK (Hu, Zhang, Xia 2021): Levenberg-Marquardt with the damping of Nielsen as Lourakis 2005 gives
+// it. Beyond the paper: bounds. A parameter at its bound that the gradient pushes outwards rests for the step; what a
+// step takes beyond a bound ends there. x: the start, moved within the bounds first; then the result.
 LmSummary levenbergMarquardt(LeastSquaresProblem& problem, const LmConfig& config, Eigen::VectorXd& x);
 
 }  // namespace depthmocap

@@ -13,8 +13,8 @@ PoseShape shapeOf(const Pose& q);
 // q with these shape DoFs; place and heading stay.
 Pose withShape(const Pose& q, const PoseShape& shape);
 
-// How natural a pose is, as residuals that join those of the targets in (7): a natural pose has small ones. Constant
-// after construction, so that threads may share one.
+// How natural a pose is, as residuals that join those of the targets in (3.1) of MNN-IK: a natural pose has small ones.
+// Constant after construction, so that threads may share one.
 class PosePrior {
  public:
   PosePrior() = default;

@@ -5,8 +5,8 @@
 
 namespace depthmocap {
 
-// Problem (7) over q: rows of the targets [m], then `weight` times those of the prior, if there is one; bounds are the
-// joint limits.
+// Problem (3.1) of MNN-IK over q: rows of the targets [m], then `weight` times those of the prior, if there is one;
+// bounds are the joint limits.
 class PoseProblem final : public LeastSquaresProblem {
  public:
   // prior may be nullptr; the references must outlive the problem. weight: [m] that one unit of the prior is worth.

@@ -8,7 +8,7 @@
 
 namespace depthmocap {
 
-// The first rows of (7): f_i(q) - c_i [m], three a target, in the order of kJointNames.
+// The first rows of (3.1) of MNN-IK: f_i(q) - c_i [m], three a target, in the order of kJointNames.
 class TargetTerm {
  public:
   TargetTerm(const Skeleton& skeleton, const JointTargets& targets);  // the skeleton must outlive the term
