@@ -57,6 +57,14 @@ void addDataOptions(CLI::App& command, DataOptions& data) {
           "Share of the images whose pose is of a posture chosen uniformly: bent and crouching as often as standing")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  command
+      .add_option("--carried-share", data.carried_share,
+                  "Share of the images with a bag or something in a hand (default: 0.12, with --plain 0)")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--obstacle-share", data.obstacle_share,
+                  "Share of the images with something between actor and camera (default: 0.12, with --plain 0)")
+      ->check(CLI::Range(0.0, 1.0));
   command.add_option("--exclude", data.exclude,
                      "Motions to hold out for measuring (default: a tenth of all motions, chosen by name)");
   command.add_option("--bodies", data.bodies, "Bodies to render")->check(CLI::Range(1, 10000))->capture_default_str();
@@ -77,6 +85,8 @@ ImageSet makeImageSet(const DataOptions& data, PoseUse use, std::size_t images) 
   options.t_poses = data.t_pose;
   options.view.facing_share = 0.3;  // half of all views are then within 60 degrees of the camera
   if (data.plain) askForPlainViews(options);
+  if (data.carried_share) options.view.carried_share = *data.carried_share;
+  if (data.obstacle_share) options.view.obstacle_share = *data.obstacle_share;
   options.variation.posture_share = data.posture_share;
   set.source = std::make_unique<RenderedImageSource>(set.bodies, set.poses, options);
   return set;

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct DataOptions {
   bool t_pose = false;
   bool plain = false;
   double posture_share = 0;
+  std::optional<double> carried_share;   // none: TrainingViewConfig's, or 0 with plain
+  std::optional<double> obstacle_share;  // likewise
   std::vector<std::string> exclude;
   int bodies = 200;
   std::uint64_t seed = 1;
