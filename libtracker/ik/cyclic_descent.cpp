@@ -21,10 +21,7 @@ bool isMovedBy(Bone point_bone, int bone) {
 class Descent {
  public:
   Descent(const Skeleton& skeleton, const JointTargets& targets, const Pose& start)
-      : skeleton_(skeleton), term_(skeleton, targets), q(start) {
-    fk_.update(skeleton_, q);
-    squared_ = squaredAt(q);
-  }
+      : skeleton_(skeleton), term_(skeleton, targets), q_(start), squared_(squaredAt(start)) {}
 
   void sweep() {
     for (int bone = kBoneCount - 1; bone >= 0; --bone) {
@@ -33,10 +30,11 @@ class Descent {
     }
     move();
   }
+  [[nodiscard]] const Pose& q() const { return q_; }
   [[nodiscard]] double rms() const { return std::sqrt(squared_ / static_cast<double>(term_.points().size())); }
 
  private:
-  // The sum of squared distances of the targets [m^2]; leaves the kinematics at q.
+  // The sum of squared distances of the targets [m^2]; leaves the kinematics there.
   double squaredAt(const Pose& pose) {
     fk_.update(skeleton_, pose);
     double sum = 0;
@@ -74,32 +72,30 @@ class Descent {
   void turn(int bone, int dof) {
     double angle = bestTurn(bone, dof);
     for (int halving = 0; halving <= kMaxHalvings && std::abs(angle) > 1e-9; ++halving, angle *= 0.5) {
-      Pose next = q;
+      Pose next = q_;
       next[dof] += angle;
       next = clampedToLimits(next);
       const double squared = squaredAt(next);
       if (squared < squared_) {
         squared_ = squared;
-        q = next;
+        q_ = next;
         return;
       }
     }
-    fk_.update(skeleton_, q);
+    fk_.update(skeleton_, q_);
   }
   void move() {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < term_.points().size(); ++i) mean += term_.goals()[i] - fk_.position(term_.points()[i]);
-    q.head<3>() += mean / static_cast<double>(term_.points().size());
-    squared_ = squaredAt(q);
+    q_.head<3>() += mean / static_cast<double>(term_.points().size());
+    squared_ = squaredAt(q_);
   }
 
   const Skeleton& skeleton_;
   TargetTerm term_;
   ForwardKinematics fk_;
-  double squared_ = 0;
-
- public:
-  Pose q;
+  Pose q_;
+  double squared_;  // [m^2] at q_
 };
 
 }  // namespace
@@ -110,7 +106,7 @@ IkResult solveCyclicDescent(const Skeleton& skeleton, const JointTargets& target
   for (; result.iterations < kMaxSweeps; ++result.iterations) {
     descent.sweep();
     const double gain_m = result.residual_m - descent.rms();
-    result.q = descent.q;
+    result.q = descent.q();
     result.residual_m = descent.rms();
     if (gain_m < kLeastGain_m) break;
   }

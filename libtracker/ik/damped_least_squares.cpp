@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "libtracker/ik/classic_solvers.h"
+#include "libtracker/ik/closest_so_far.h"
 #include "libtracker/ik/target_term.h"
 #include "libtracker/skeleton/joint_limits.h"
 
@@ -12,8 +13,6 @@ namespace {
 constexpr double kLambda2 = 0.05 * 0.05;  // [m^2] damping
 constexpr double kLongestStep = 0.3;      // [rad] and [m] of one DoF in one step: the linear model holds no farther
 constexpr int kMaxIterations = 200;
-constexpr double kLeastGain_m = 1e-6;  // in kPatience steps
-constexpr int kPatience = 5;
 
 // A DoF at its limit that the targets push outwards rests for the step.
 void rest(const Pose& q, const Eigen::VectorXd& e, Eigen::MatrixXd& J) {
@@ -31,11 +30,9 @@ IkResult solveDampedLeastSquares(const Skeleton& skeleton, const JointTargets& t
   Eigen::VectorXd e(term.rows());
   Eigen::MatrixXd J(term.rows(), kDofCount);
   Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> J_rows(J);
-  IkResult best{q, term.rms(q), 0};
+  ClosestSoFar closest(q, term.rms(q));
   Pose now = q;
-  int waited = 0;
-  for (int i = 0; i < kMaxIterations && waited < kPatience; ++i) {
-    ++best.iterations;
+  while (closest.goesOn(kMaxIterations)) {
     term.evaluate(now, e, &J_rows);
     rest(now, e, J);
     Eigen::MatrixXd JJt = J * J.transpose();
@@ -43,14 +40,9 @@ IkResult solveDampedLeastSquares(const Skeleton& skeleton, const JointTargets& t
     Pose step = -J.transpose() * JJt.llt().solve(e);
     step *= std::min(1.0, kLongestStep / std::max(1e-12, step.tail<kDofCount - 3>().cwiseAbs().maxCoeff()));
     now = clampedToLimits(now + step);
-    const double residual_m = term.rms(now);
-    waited = residual_m < best.residual_m - kLeastGain_m ? 0 : waited + 1;
-    if (residual_m < best.residual_m) {
-      best.q = now;
-      best.residual_m = residual_m;
-    }
+    closest.add(now, term.rms(now));
   }
-  return best;
+  return closest.result();
 }
 
 }  // namespace depthmocap

@@ -4,6 +4,7 @@
 
 #include "libtracker/core/check.h"
 #include "libtracker/ik/classic_solvers.h"
+#include "libtracker/ik/closest_so_far.h"
 #include "libtracker/ik/target_term.h"
 #include "libtracker/posedb/best_rotation.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -16,8 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kMaxIterations = 100;
-constexpr double kLeastGain_m = 1e-6;  // in kPatience iterations
-constexpr int kPatience = 5;
 constexpr double kStay = 1e-3;   // weight of a piece's present place where its wanted points leave it open
 constexpr double kBeyond = 0.1;  // weight of the point after a bone's end, for the twist about the bone
 
@@ -183,20 +182,13 @@ class Fabrik {
 
 IkResult solveFabrik(const Skeleton& skeleton, const JointTargets& targets, const Pose& q) {
   TargetTerm term(skeleton, targets);
-  IkResult best{q, term.rms(q), 0};
   Fabrik fabrik(skeleton, targets, q);
-  int waited = 0;
-  while (best.iterations < kMaxIterations && waited < kPatience) {
-    ++best.iterations;
+  ClosestSoFar closest(q, term.rms(q));
+  while (closest.goesOn(kMaxIterations)) {
     const Pose& next = fabrik.iterate();
-    const double residual_m = term.rms(next);
-    waited = residual_m < best.residual_m - kLeastGain_m ? 0 : waited + 1;
-    if (residual_m < best.residual_m) {
-      best.q = next;
-      best.residual_m = residual_m;
-    }
+    closest.add(next, term.rms(next));
   }
-  return best;
+  return closest.result();
 }
 
 }  // namespace depthmocap

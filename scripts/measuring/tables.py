@@ -1,4 +1,4 @@
-"""Tables and sections of docs/accuracy.md."""
+"""Tables and sections of pages, docs/accuracy.md unless another is named."""
 import re
 
 from measuring.lab import ROOT
@@ -20,12 +20,12 @@ def number(value, digits=1):
     return "" if value is None or value != value else f"{value:.{digits}f}"
 
 
-def write_section(name, lines):
+def write_section(name, lines, path=PAGE):
     """Puts a section between its two marks of the page; what is written by hand around them stays."""
     begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
-    page = PAGE.read_text()
+    page = path.read_text()
     if begin not in page or end not in page:
-        raise RuntimeError(f"{PAGE}: no place for the section {name}; it is between '{begin.strip()}' and '{end}'")
+        raise RuntimeError(f"{path}: no place for the section {name}; it is between '{begin.strip()}' and '{end}'")
     text = begin + "\n".join(lines) + "\n" + end
     page = re.sub(re.escape(begin) + ".*?" + re.escape(end), lambda _: text, page, flags=re.DOTALL)
-    PAGE.write_text(page)
+    path.write_text(page)
