@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/commands.h"
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/json_file.h"
 
 namespace depthmocap {

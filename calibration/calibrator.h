@@ -9,8 +9,8 @@
 #include "calibration/limb_shapes.h"
 #include "calibration/shape_space.h"
 #include "calibration/tpose_check.h"
+#include "depthmocap/depth_frame.h"
 #include "libtracker/classify/forest.h"
-#include "libtracker/core/depth_frame.h"
 
 namespace depthmocap {
 

@@ -2,9 +2,9 @@
 #include <vector>
 
 #include "calibration/pose_observation.h"
-#include "libtracker/core/camera.h"
-#include "libtracker/core/depth_frame.h"
-#include "libtracker/tracker/tracked_frame.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/depth_frame.h"
+#include "depthmocap/tracked_frame.h"
 
 namespace depthmocap {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depthmocap/world_frame.h"
+
 namespace depthmocap {
 namespace {
 

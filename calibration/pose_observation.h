@@ -3,12 +3,12 @@
 #include <vector>
 
 #include "calibration/body_template.h"
-#include "libtracker/core/camera.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
+#include "depthmocap/marker_set.h"
+#include "depthmocap/parts.h"
+#include "depthmocap/pose.h"
 #include "libtracker/core/classified_pixels.h"
-#include "libtracker/core/image.h"
-#include "libtracker/core/marker_set.h"
-#include "libtracker/core/parts.h"
-#include "libtracker/skeleton/dof.h"
 
 namespace depthmocap {
 

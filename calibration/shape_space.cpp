@@ -4,9 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/core/json_file.h"
 
 namespace depthmocap {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/image.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
 
 namespace depthmocap {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "libtracker/core/marker_set.h"
+#include "depthmocap/marker_set.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/joint_limits.h"

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/core/image.h"
+#include "depthmocap/image.h"
 
 namespace depthmocap {
 

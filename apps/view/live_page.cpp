@@ -7,11 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "depthmocap/error.h"
+#include "depthmocap/joints.h"
+#include "depthmocap/parts.h"
 #include "libtracker/body/builtin_body.h"
-#include "libtracker/core/error.h"
-#include "libtracker/core/joints.h"
-#include "libtracker/core/parts.h"
 #include "libtracker/output/gltf.h"
+#include "libtracker/recording/part_colors.h"
 
 namespace depthmocap {
 namespace {

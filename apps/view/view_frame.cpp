@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "depthmocap/world_frame.h"
 #include "libtracker/body/pose_surface.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/depth_frame.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/depth_frame.h"
+#include "depthmocap/tracked_frame.h"
 #include "libtracker/output/floor_origin.h"
-#include "libtracker/tracker/tracked_frame.h"
 
 namespace depthmocap {
 

@@ -19,8 +19,8 @@
 #include "apps/view/background.h"
 #include "apps/view/request_guard.h"
 #include "apps/view/stream_hub.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

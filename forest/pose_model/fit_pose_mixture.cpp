@@ -4,8 +4,8 @@
 #include <iterator>
 #include <limits>
 
+#include "depthmocap/error.h"
 #include "forest/pose_model/pose_mixture.h"
-#include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/local_prior.h"

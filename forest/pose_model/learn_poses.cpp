@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "forest/pose_model/network_trainer.h"
 #include "forest/pose_model/pose_mixture.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "depthmocap/pose.h"
 #include "libtracker/posedb/pose_database.h"
-#include "libtracker/skeleton/dof.h"
 
 namespace depthmocap {
 

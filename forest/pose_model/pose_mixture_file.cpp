@@ -3,9 +3,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "depthmocap/error.h"
 #include "forest/pose_model/pose_mixture.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/core/error.h"
 
 // Layout, little-endian: "DMCPMIX1", u32 length of origin, origin, u32 components, then a component: f32 weight and its
 // numbers as i16: mean [1e-4 rad], basis [1/32767], deviation [1e-4 rad].

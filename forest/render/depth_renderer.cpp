@@ -7,8 +7,8 @@
 
 #include <embree3/rtcore.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

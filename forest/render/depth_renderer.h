@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/image.h"
-#include "libtracker/core/parts.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
+#include "depthmocap/parts.h"
 
 namespace depthmocap {
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <Eigen/Geometry>
 
+#include "depthmocap/pose.h"
 #include "forest/render/depth_renderer.h"
 #include "libtracker/core/random.h"
-#include "libtracker/skeleton/dof.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

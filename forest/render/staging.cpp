@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "depthmocap/world_frame.h"
 #include "libtracker/body/body_surface.h"
 #include "libtracker/skeleton/motion_clip.h"
 

@@ -8,9 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
+#include "depthmocap/world_frame.h"
 #include "forest/render/scene.h"
 #include "libtracker/body/pose_surface.h"
-#include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/recording.h"

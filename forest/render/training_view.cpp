@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "depthmocap/world_frame.h"
 #include "forest/render/props.h"
 #include "libtracker/body/pose_surface.h"
 

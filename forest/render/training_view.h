@@ -2,11 +2,11 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "depthmocap/pose.h"
 #include "forest/render/depth_renderer.h"
 #include "forest/render/sensor_model.h"
 #include "libtracker/body/body_surface.h"
 #include "libtracker/core/random.h"
-#include "libtracker/skeleton/dof.h"
 
 namespace depthmocap {
 

@@ -8,7 +8,7 @@
 
 #include <mpi.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "libtracker/classify/classify.h"
+#include "libtracker/classify/label_image.h"
 #include "libtracker/core/parallel.h"
 
 namespace depthmocap {

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "forest/train/image_store.h"
 #include "forest/train/training_checkpoint.h"
 #include "forest/train/tree_trainer.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

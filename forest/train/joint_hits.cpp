@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "libtracker/core/error.h"
-#include "libtracker/core/parts.h"
+#include "depthmocap/error.h"
+#include "depthmocap/parts.h"
+#include "libtracker/classify/classify.h"
+#include "libtracker/classify/label_image.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
 

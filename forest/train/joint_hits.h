@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "depthmocap/joints.h"
 #include "libtracker/classify/forest.h"
-#include "libtracker/core/joints.h"
 
 namespace depthmocap {
 

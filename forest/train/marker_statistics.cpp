@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libtracker/classify/classify.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/forward_kinematics.h"

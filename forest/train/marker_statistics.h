@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "depthmocap/parts.h"
 #include "forest/render/training_view.h"
 #include "libtracker/body/body_surface.h"
 #include "libtracker/classify/forest.h"
-#include "libtracker/core/parts.h"
 #include "libtracker/markers/find_markers.h"
 
 namespace depthmocap {

@@ -5,9 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
+#include "depthmocap/parts.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/core/error.h"
-#include "libtracker/core/parts.h"
+#include "libtracker/recording/part_colors.h"
 #include "libtracker/recording/png_file.h"
 
 namespace depthmocap {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/makehuman_model.h"
 #include "libtracker/body/sample_body.h"
-#include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/facing_of.h"

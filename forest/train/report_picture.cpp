@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "depthmocap/parts.h"
 #include "libtracker/core/facing.h"
-#include "libtracker/core/parts.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {

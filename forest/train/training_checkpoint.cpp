@@ -6,8 +6,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/core/error.h"
 
 // "DMCTRAIN", a hash of all that follows, the length of the identity, the identity, the number of trees, and each
 // tree's number of nodes and nodes as they are in memory: the file never leaves the machine.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libtracker/core/parts.h"
+#include "depthmocap/parts.h"
 
 namespace depthmocap {
 

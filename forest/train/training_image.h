@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "depthmocap/image.h"
 #include "libtracker/core/facing.h"
-#include "libtracker/core/image.h"
 
 namespace depthmocap {
 

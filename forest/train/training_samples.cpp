@@ -2,9 +2,9 @@
 
 #include <array>
 
+#include "depthmocap/parts.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/parallel.h"
-#include "libtracker/core/parts.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/core/parts.h"
+#include "depthmocap/parts.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/anatomy.h"
 #include "libtracker/body/part_regions.h"
 #include "libtracker/body/polygonise.h"
 #include "libtracker/body/skin_weights.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 namespace {

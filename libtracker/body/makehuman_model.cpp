@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/makehuman_rest.h"
 #include "libtracker/body/part_regions.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

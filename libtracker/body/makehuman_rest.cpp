@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/skin_weights.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

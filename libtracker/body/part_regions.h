@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "depthmocap/parts.h"
 #include "libtracker/body/body_surface.h"
-#include "libtracker/core/parts.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

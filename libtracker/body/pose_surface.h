@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "depthmocap/pose.h"
 #include "libtracker/body/body_surface.h"
-#include "libtracker/skeleton/dof.h"
 
 namespace depthmocap {
 

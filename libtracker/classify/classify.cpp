@@ -1,3 +1,5 @@
+#include "libtracker/classify/classify.h"
+
 #include <algorithm>
 #include <cstddef>
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "depthmocap/parts.h"
 #include "libtracker/classify/forest.h"
 #include "libtracker/core/facing.h"
-#include "libtracker/core/parts.h"
 
 namespace depthmocap {
 

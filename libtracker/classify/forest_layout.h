@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/core/parts.h"
+#include "depthmocap/parts.h"
 
 namespace depthmocap {
 

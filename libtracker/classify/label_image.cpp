@@ -1,8 +1,9 @@
+#include "libtracker/classify/label_image.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
 
-#include "libtracker/classify/forest.h"
 #include "libtracker/core/check.h"
 
 namespace depthmocap {

@@ -5,9 +5,10 @@
 
 #include <zlib.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/classify/forest.h"
+#include "libtracker/classify/forest_file.h"
 #include "libtracker/classify/forest_layout.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

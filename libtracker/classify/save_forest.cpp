@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include "libtracker/classify/forest.h"
+#include "libtracker/classify/forest_file.h"
 #include "libtracker/classify/forest_layout.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/check.h"

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "depthmocap/parts.h"
 #include "libtracker/core/facing.h"
-#include "libtracker/core/parts.h"
 
 namespace depthmocap {
 

@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/parse_number.h"
 
 namespace depthmocap {

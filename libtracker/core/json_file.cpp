@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 

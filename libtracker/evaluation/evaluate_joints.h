@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "libtracker/core/joints.h"
+#include "depthmocap/joints.h"
 #include "libtracker/recording/track_files.h"
 
 namespace depthmocap {

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "depthmocap/pose.h"
 #include "libtracker/evaluation/evaluate_joints.h"
 #include "libtracker/recording/track_files.h"
-#include "libtracker/skeleton/dof.h"
 
 namespace depthmocap {
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
+#include "depthmocap/track_state.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/csv.h"
-#include "libtracker/core/error.h"
-#include "libtracker/core/track_state.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/ik/classic_solvers.h"
 #include "libtracker/ik/pose_problem.h"
 #include "libtracker/skeleton/joint_limits.h"

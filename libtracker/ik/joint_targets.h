@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "libtracker/core/joints.h"
+#include "depthmocap/joints.h"
 
 namespace depthmocap {
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/core/error.h"
 
 // Layout, little-endian: "DMCPOSE1"; u32 length of origin, origin; then in the order of LearnedPoses, a matrix as u32
 // rows, u32 columns and its numbers as 16-bit floats, column by column. A Gaussian is weight, mean, basis, deviation

@@ -2,9 +2,9 @@
 #include <array>
 #include <vector>
 
-#include "libtracker/core/camera.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/marker_set.h"
 #include "libtracker/core/classified_pixels.h"
-#include "libtracker/core/marker_set.h"
 #include "libtracker/markers/mean_shift.h"
 #include "libtracker/markers/voxel_votes.h"
 

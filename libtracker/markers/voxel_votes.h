@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/core/camera.h"
+#include "depthmocap/camera_model.h"
 #include "libtracker/core/classified_pixels.h"
 
 namespace depthmocap {

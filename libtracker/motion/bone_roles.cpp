@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/motion/text_scanner.h"
 
 namespace depthmocap {

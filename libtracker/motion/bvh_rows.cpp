@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/motion/bvh.h"
 
 namespace depthmocap {

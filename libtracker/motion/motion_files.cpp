@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/motion/asf_amc.h"
 #include "libtracker/motion/bone_roles.h"
 #include "libtracker/motion/bvh.h"

@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "libtracker/core/joints.h"
+#include "depthmocap/joints.h"
 #include "libtracker/motion/bone_roles.h"
 #include "libtracker/motion/source_motion.h"
 #include "libtracker/skeleton/skeleton.h"

@@ -2,7 +2,7 @@
 #include <array>
 #include <string>
 
-#include "libtracker/core/joints.h"
+#include "depthmocap/joints.h"
 #include "libtracker/motion/source_motion.h"
 #include "libtracker/skeleton/motion_clip.h"
 

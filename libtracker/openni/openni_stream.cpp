@@ -11,7 +11,7 @@
 #include <OpenNI.h>
 #include <fmt/format.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/image.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
 #include "libtracker/openni/openni_runtime.h"
 
 namespace depthmocap {

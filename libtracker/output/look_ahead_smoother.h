@@ -3,7 +3,7 @@
 #include <deque>
 #include <optional>
 
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/pose.h"
 
 namespace depthmocap {
 

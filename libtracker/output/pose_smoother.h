@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "depthmocap/pose.h"
 #include "libtracker/output/one_euro.h"
-#include "libtracker/skeleton/dof.h"
 
 namespace depthmocap {
 

@@ -5,7 +5,7 @@
 
 #include <lo/lo.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 namespace {

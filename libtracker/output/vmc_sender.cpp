@@ -6,7 +6,7 @@
 #include <lo/lo.h>
 #include <netdb.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/parse_number.h"
 #include "libtracker/output/floor_origin.h"
 #include "libtracker/output/vmc_bones.h"

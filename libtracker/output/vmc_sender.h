@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "libtracker/core/track_state.h"
+#include "depthmocap/track_state.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

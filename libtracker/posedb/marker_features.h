@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "libtracker/core/marker_set.h"
+#include "depthmocap/marker_set.h"
 #include "libtracker/posedb/marker_table.h"
 
 namespace depthmocap {

@@ -17,9 +17,9 @@
 
 #include <zlib.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/pose.h"
 
 namespace depthmocap {
 

@@ -12,8 +12,8 @@
 #include <flann/algorithms/kdtree_single_index.h>
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/posedb/marker_features.h"
 #include "libtracker/posedb/marker_table.h"
 #include "libtracker/posedb/search_distance.h"

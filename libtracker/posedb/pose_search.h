@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "libtracker/core/marker_set.h"
+#include "depthmocap/marker_set.h"
 #include "libtracker/posedb/pose_database.h"
 #include "libtracker/skeleton/marker_model.h"
 

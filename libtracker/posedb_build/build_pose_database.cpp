@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/joint_limits.h"

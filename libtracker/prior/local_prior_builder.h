@@ -4,7 +4,7 @@
 
 #include "libtracker/posedb/pose_database.h"
 #include "libtracker/posedb/pose_search.h"
-#include "libtracker/prior/local_prior.h"
+#include "libtracker/prior/prior_config.h"
 
 namespace depthmocap {
 

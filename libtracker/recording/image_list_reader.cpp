@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/csv.h"
-#include "libtracker/core/error.h"
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/recording_header.h"
 #include "libtracker/recording/undistort.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 

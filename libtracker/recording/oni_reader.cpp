@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/recording/oni_codec.h"
 #include "libtracker/recording/oni_file.h"
 #include "libtracker/recording/recording_header.h"

@@ -1,4 +1,4 @@
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/recording/image_list_reader.h"
 #include "libtracker/recording/oni_reader.h"
 #include "libtracker/recording/recording.h"

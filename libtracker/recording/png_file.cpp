@@ -11,9 +11,9 @@
 
 #include <png.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 
 // libpng itself, not OpenCV's imread: that one hands out a picture that is cut short half filled, with a warning only.
 namespace depthmocap {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/depth_frame.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/depth_frame.h"
 
 namespace depthmocap {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/json_file.h"
 
 namespace depthmocap {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/recording_header.h"

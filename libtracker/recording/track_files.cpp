@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "depthmocap/world_frame.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/csv.h"

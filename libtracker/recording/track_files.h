@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/joints.h"
-#include "libtracker/core/track_state.h"
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/joints.h"
+#include "depthmocap/pose.h"
+#include "depthmocap/track_state.h"
+#include "depthmocap/world_frame.h"
 
 namespace depthmocap {
 

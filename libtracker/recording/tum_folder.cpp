@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/csv.h"
-#include "libtracker/core/error.h"
 #include "libtracker/recording/image_list_reader.h"
 
 namespace depthmocap {

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/image.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
 
 namespace depthmocap {
 

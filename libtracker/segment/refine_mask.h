@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/image.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
 #include "libtracker/segment/coarse_cloud.h"
 #include "libtracker/segment/components.h"
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/image.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
 
 namespace depthmocap {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/recording/undistort.h"
 
 namespace depthmocap {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "libtracker/core/depth_frame.h"
+#include "depthmocap/depth_frame.h"
 #include "libtracker/recording/recording.h"
 
 namespace depthmocap {

@@ -4,7 +4,7 @@
 
 #include <linux/videodev2.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/openni/openni_runtime.h"
 #include "libtracker/sensor/v4l2_format.h"
 

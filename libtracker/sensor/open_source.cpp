@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/parse_number.h"
 #include "libtracker/openni/openni_runtime.h"
 #include "libtracker/sensor/openni_source.h"

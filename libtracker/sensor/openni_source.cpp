@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/openni/openni_stream.h"
 #include "libtracker/recording/undistort.h"
 #include "libtracker/sensor/camera_calibration.h"

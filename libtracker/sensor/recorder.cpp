@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/recording/recording_header.h"
 
 namespace depthmocap {

@@ -4,8 +4,8 @@
 #include <thread>
 #include <utility>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 
 namespace depthmocap {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "libtracker/core/image.h"
+#include "depthmocap/image.h"
 
 namespace depthmocap {
 

@@ -10,7 +10,7 @@
 #include <linux/videodev2.h>
 #include <poll.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 

@@ -1,6 +1,6 @@
 #pragma once
+#include "depthmocap/pose.h"
 #include "libtracker/core/facing.h"
-#include "libtracker/skeleton/dof.h"
 
 namespace depthmocap {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "libtracker/core/joints.h"
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/joints.h"
+#include "depthmocap/pose.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

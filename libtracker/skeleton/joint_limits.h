@@ -1,5 +1,5 @@
 #pragma once
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/pose.h"
 
 namespace depthmocap {
 

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/pose.h"
 
 namespace depthmocap {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "libtracker/core/parts.h"
+#include "depthmocap/parts.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "libtracker/core/parts.h"
+#include "depthmocap/parts.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

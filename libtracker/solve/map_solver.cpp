@@ -4,8 +4,8 @@
 #include <ceres/tiny_solver.h>
 #include <fmt/format.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/core/error.h"
 #include "libtracker/solve/map_function.h"
 
 namespace depthmocap {

@@ -1,12 +1,12 @@
 #pragma once
 #include <memory>
 
-#include "libtracker/core/marker_set.h"
+#include "depthmocap/marker_set.h"
 #include "libtracker/skeleton/local_prior.h"
 #include "libtracker/skeleton/marker_model.h"
 #include "libtracker/skeleton/skeleton.h"
+#include "libtracker/skeleton/surface_match.h"
 #include "libtracker/solve/contact_term.h"
-#include "libtracker/solve/surface_match.h"
 
 namespace depthmocap {
 

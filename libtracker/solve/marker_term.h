@@ -1,5 +1,5 @@
 #pragma once
-#include "libtracker/core/marker_set.h"
+#include "depthmocap/marker_set.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/marker_model.h"
 #include "libtracker/solve/residual_block.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/pose.h"
 
 namespace depthmocap {
 

@@ -2,8 +2,8 @@
 #include <array>
 
 #include "libtracker/skeleton/forward_kinematics.h"
+#include "libtracker/skeleton/surface_match.h"
 #include "libtracker/solve/residual_block.h"
-#include "libtracker/solve/surface_match.h"
 
 namespace depthmocap {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "libtracker/core/marker_set.h"
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/marker_set.h"
+#include "depthmocap/pose.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/tracker/actor_model.h"
 

@@ -1,13 +1,13 @@
 #pragma once
 #include <vector>
 
-#include "libtracker/core/camera.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
 #include "libtracker/core/classified_pixels.h"
-#include "libtracker/core/image.h"
+#include "libtracker/match/free_space_matcher.h"
+#include "libtracker/match/surface_matcher.h"
 #include "libtracker/skeleton/surface_model.h"
-#include "libtracker/solve/free_space_matcher.h"
 #include "libtracker/solve/map_solver.h"
-#include "libtracker/solve/surface_matcher.h"
 #include "libtracker/tracker/actor_model.h"
 
 namespace depthmocap {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libtracker/classify/classify.h"
 #include "libtracker/skeleton/facing_of.h"
 #include "libtracker/tracker/alignment.h"
 #include "libtracker/tracker/tracker_stages.h"

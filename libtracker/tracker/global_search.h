@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "libtracker/posedb/pose_search.h"
-#include "libtracker/prior/local_prior.h"
 #include "libtracker/prior/local_prior_builder.h"
+#include "libtracker/prior/prior_config.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/solve/map_solver.h"
 #include "libtracker/tracker/actor_model.h"

@@ -1,6 +1,6 @@
 #pragma once
-#include "libtracker/core/joints.h"
-#include "libtracker/core/marker_set.h"
+#include "depthmocap/joints.h"
+#include "depthmocap/marker_set.h"
 
 namespace depthmocap {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 namespace {

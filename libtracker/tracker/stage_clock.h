@@ -1,7 +1,7 @@
 #pragma once
 #include <chrono>
 
-#include "libtracker/tracker/tracked_frame.h"
+#include "depthmocap/tracked_frame.h"
 
 namespace depthmocap {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <limits>
 
-#include "libtracker/core/track_state.h"
-#include "libtracker/skeleton/dof.h"
+#include "depthmocap/pose.h"
+#include "depthmocap/track_state.h"
 
 namespace depthmocap {
 

@@ -3,15 +3,15 @@
 #include <memory>
 #include <optional>
 
+#include "depthmocap/camera_model.h"
+#include "depthmocap/depth_frame.h"
+#include "depthmocap/image.h"
+#include "depthmocap/marker_set.h"
+#include "depthmocap/tracked_frame.h"
 #include "libtracker/classify/forest.h"
-#include "libtracker/core/camera.h"
-#include "libtracker/core/depth_frame.h"
-#include "libtracker/core/image.h"
-#include "libtracker/core/marker_set.h"
 #include "libtracker/posedb/pose_database.h"
 #include "libtracker/skeleton/surface_model.h"
 #include "libtracker/tracker/actor_model.h"
-#include "libtracker/tracker/tracked_frame.h"
 #include "libtracker/tracker/tracker_config.h"
 
 namespace depthmocap {

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
+#include "libtracker/classify/classify.h"
 
 namespace depthmocap {
 namespace {

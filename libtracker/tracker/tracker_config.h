@@ -1,12 +1,12 @@
 #pragma once
-#include "libtracker/classify/forest.h"
+#include "libtracker/classify/classify.h"
 #include "libtracker/markers/find_markers.h"
+#include "libtracker/match/free_space_matcher.h"
+#include "libtracker/match/surface_matcher.h"
 #include "libtracker/posedb/pose_search.h"
-#include "libtracker/prior/local_prior.h"
+#include "libtracker/prior/prior_config.h"
 #include "libtracker/segment/segment.h"
-#include "libtracker/solve/free_space_matcher.h"
 #include "libtracker/solve/map_solver.h"
-#include "libtracker/solve/surface_matcher.h"
 
 namespace depthmocap {
 

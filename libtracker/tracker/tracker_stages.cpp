@@ -5,11 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "libtracker/classify/classify.h"
+#include "libtracker/classify/label_image.h"
+#include "libtracker/classify/side_expectation.h"
 #include "libtracker/skeleton/facing_of.h"
 #include "libtracker/solve/size_estimate.h"
 #include "libtracker/tracker/alignment.h"
 #include "libtracker/tracker/joint_confidence.h"
-#include "libtracker/tracker/side_expectation.h"
 
 namespace depthmocap {
 namespace {

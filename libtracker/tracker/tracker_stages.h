@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "libtracker/classify/classify.h"
 #include "libtracker/markers/find_markers.h"
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/prior/local_prior_builder.h"

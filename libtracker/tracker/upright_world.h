@@ -2,7 +2,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "libtracker/core/camera.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/world_frame.h"
 #include "libtracker/segment/segment.h"
 
 namespace depthmocap {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "libtracker/core/depth_frame.h"
+#include "depthmocap/depth_frame.h"
 
 namespace depthmocap {
 

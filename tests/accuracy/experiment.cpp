@@ -15,14 +15,15 @@
 #include <string>
 #include <utility>
 
-#include "apps/look_ahead.h"
-#include "apps/run_stats.h"
-#include "apps/track_options.h"
-#include "apps/track_outputs.h"
-#include "apps/tracker_setup.h"
+#include "apps/track/look_ahead.h"
+#include "apps/track/run_stats.h"
+#include "apps/track/track_options.h"
+#include "apps/track/track_outputs.h"
+#include "apps/track/tracker_setup.h"
+#include "depthmocap/error.h"
+#include "depthmocap/world_frame.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/body/sample_surface.h"
-#include "libtracker/core/error.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
 #include "libtracker/tracker/alignment.h"

@@ -6,7 +6,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "libtracker/classify/classify.h"
 #include "libtracker/classify/forest.h"
+#include "libtracker/classify/forest_file.h"
+#include "libtracker/classify/label_image.h"
 #include "libtracker/core/random.h"
 #include "libtracker/recording/recording.h"
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/track_options.h"
-#include "apps/tracker_setup.h"
+#include "apps/track/track_options.h"
+#include "apps/track/tracker_setup.h"
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/prior/local_prior_builder.h"
 #include "libtracker/recording/recording.h"

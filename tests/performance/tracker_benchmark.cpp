@@ -8,7 +8,9 @@
 
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/body/sample_surface.h"
+#include "libtracker/classify/classify.h"
 #include "libtracker/classify/forest.h"
+#include "libtracker/classify/forest_file.h"
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/solve/map_solver.h"

@@ -13,7 +13,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "libtracker/core/camera.h"
+#include "depthmocap/camera_model.h"
 #include "libtracker/recording/png_file.h"
 
 namespace depthmocap {

@@ -8,8 +8,8 @@
 #include <map>
 #include <thread>
 
-#include "apps/live_loop.h"
-#include "apps/tracker_setup.h"
+#include "apps/track/live_loop.h"
+#include "apps/track/tracker_setup.h"
 #include "libtracker/recording/recording_header.h"
 #include "libtracker/sensor/v4l2_source.h"
 #include "tests/qemu/feeder.h"

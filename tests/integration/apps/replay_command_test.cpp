@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/parts.h"
+#include "depthmocap/parts.h"
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/track_files.h"
 #include "tests/support/recording_excerpt.h"

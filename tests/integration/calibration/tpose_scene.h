@@ -3,8 +3,10 @@
 #include <vector>
 
 #include "calibration/calibrator.h"
+#include "depthmocap/world_frame.h"
 #include "forest/render/sensor_model.h"
 #include "libtracker/body/pose_surface.h"
+#include "libtracker/classify/forest_file.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

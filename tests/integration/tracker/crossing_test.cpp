@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "forest/motions/procedural_motions.h"
 #include "forest/render/synthesize.h"
 #include "libtracker/body/builtin_body.h"
+#include "libtracker/choreography/procedural_motions.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
 #include "tests/support/run_program.h"

@@ -1,4 +1,4 @@
-#include "apps/durations.h"
+#include "apps/track/durations.h"
 
 #include <gtest/gtest.h>
 

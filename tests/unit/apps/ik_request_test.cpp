@@ -1,9 +1,8 @@
-#include "apps/ik_request.h"
-
 #include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
 
+#include "apps/ik/request.h"
 #include "tests/support/temporary_folder.h"
 
 namespace depthmocap {

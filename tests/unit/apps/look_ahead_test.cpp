@@ -1,9 +1,10 @@
-#include "apps/look_ahead.h"
+#include "apps/track/look_ahead.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "depthmocap/world_frame.h"
 #include "libtracker/tracker/alignment.h"
 
 namespace depthmocap {

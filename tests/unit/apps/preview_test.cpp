@@ -1,4 +1,4 @@
-#include "apps/preview.h"
+#include "apps/draw/preview.h"
 
 #include <cstdint>
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/progress.h"
+#include "apps/terminal/progress.h"
 
 #include <gtest/gtest.h>
 

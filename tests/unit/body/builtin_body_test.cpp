@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "tests/unit/body/body_checks.h"
 

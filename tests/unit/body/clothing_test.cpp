@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/builtin_body.h"
-#include "libtracker/core/error.h"
 #include "tests/unit/body/body_checks.h"
 
 namespace depthmocap {

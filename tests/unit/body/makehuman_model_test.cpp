@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/pose_surface.h"
-#include "libtracker/core/error.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "tests/unit/body/body_checks.h"
 #include "tests/unit/body/makehuman_data.h"

@@ -1,9 +1,12 @@
+#include "libtracker/classify/classify.h"
+
 #include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "libtracker/classify/forest.h"
+#include "libtracker/classify/label_image.h"
 #include "tests/unit/classify/random_forest.h"
 
 namespace depthmocap {

@@ -1,3 +1,5 @@
+#include "libtracker/classify/forest_file.h"
+
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -5,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/classify/forest.h"
-#include "libtracker/core/error.h"
 #include "tests/unit/classify/random_forest.h"
 
 namespace depthmocap {

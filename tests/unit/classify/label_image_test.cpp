@@ -1,9 +1,11 @@
+#include "libtracker/classify/label_image.h"
+
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "libtracker/classify/forest.h"
+#include "libtracker/classify/classify.h"
 #include "tests/unit/classify/random_forest.h"
 
 namespace depthmocap {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace depthmocap {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/joint_limits.h"
 #include "tests/support/temporary_folder.h"

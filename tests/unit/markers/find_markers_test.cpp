@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
+#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {

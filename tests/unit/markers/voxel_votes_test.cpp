@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libtracker/core/classified_pixels.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {

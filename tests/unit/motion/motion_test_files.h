@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/joint_limits.h"
 

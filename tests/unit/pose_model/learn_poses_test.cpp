@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "depthmocap/error.h"
 #include "forest/pose_model/network_trainer.h"
-#include "libtracker/core/error.h"
 #include "tests/gradient_check.h"
 
 namespace depthmocap {

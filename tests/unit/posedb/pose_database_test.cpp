@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {

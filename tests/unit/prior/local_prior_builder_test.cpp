@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/skeleton/skeleton.h"
 #include "tests/moving_body.h"
 

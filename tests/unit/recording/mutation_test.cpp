@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/random.h"
 #include "libtracker/ik/ik_files.h"
 #include "libtracker/recording/recording.h"

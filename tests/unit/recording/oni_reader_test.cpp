@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/random.h"
 #include "libtracker/recording/recording.h"
 #include "tests/support/temporary_folder.h"

@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
+#include "depthmocap/world_frame.h"
 #include "tests/support/temporary_folder.h"
 
 namespace depthmocap {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/body/pose_surface.h"
-#include "libtracker/core/error.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {

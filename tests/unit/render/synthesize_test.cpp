@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "depthmocap/error.h"
 #include "libtracker/body/builtin_body.h"
-#include "libtracker/core/error.h"
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "depthmocap/world_frame.h"
 #include "forest/render/depth_renderer.h"
 
 namespace depthmocap::testing {

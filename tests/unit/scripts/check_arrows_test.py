@@ -37,8 +37,11 @@ class CheckArrows(unittest.TestCase):
         self.assertIn(f'{file}: includes "{include}"', result.stdout)
         self.assertIn(reason, result.stdout)
 
+    def test_public_headers_include_public_headers_only(self):
+        self.assert_caught("libtracker/include/depthmocap/planted.h", "libtracker/core/csv.h", "public headers")
+
     def test_core_includes_nothing(self):
-        self.assert_caught("libtracker/core/planted.h", "libtracker/skeleton/dof.h", "lowest")
+        self.assert_caught("libtracker/core/planted.h", "libtracker/include/depthmocap/pose.h", "lowest")
 
     def test_skeleton_includes_core_only(self):
         self.assert_caught("libtracker/skeleton/planted.h", "libtracker/recording/recording.h", "lowest")

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "libtracker/core/camera.h"
-#include "libtracker/core/image.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/image.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {

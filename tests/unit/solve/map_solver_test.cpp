@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "tests/moving_body.h"
 
 namespace depthmocap {

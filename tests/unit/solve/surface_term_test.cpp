@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "libtracker/core/random.h"
+#include "libtracker/match/surface_matcher.h"
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "libtracker/solve/surface_matcher.h"
 #include "tests/gradient_check.h"
 
 namespace depthmocap {

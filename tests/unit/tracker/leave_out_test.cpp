@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 
 namespace depthmocap {
 namespace {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "depthmocap/world_frame.h"
+
 namespace depthmocap {
 namespace {
 

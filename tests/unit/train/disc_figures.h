@@ -2,8 +2,8 @@
 #include <array>
 #include <string>
 
+#include "depthmocap/parts.h"
 #include "forest/train/training_image.h"
-#include "libtracker/core/parts.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap::test {

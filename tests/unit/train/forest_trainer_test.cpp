@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "depthmocap/error.h"
 #include "forest/train/forest_accuracy.h"
-#include "libtracker/core/error.h"
 #include "tests/unit/train/disc_figures.h"
 #include "tests/unit/train/thread_ranks.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/parallel.h"
 
 namespace depthmocap {

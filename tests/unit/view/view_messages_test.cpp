@@ -7,6 +7,7 @@
 #include "apps/view/label_runs.h"
 #include "apps/view/view_command.h"
 #include "apps/view/view_frame.h"
+#include "depthmocap/world_frame.h"
 #include "libtracker/core/random.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libtracker/core/error.h"
+#include "depthmocap/error.h"
 #include "libtracker/core/random.h"
 #include "tests/support/connection.h"
 #include "tests/support/temporary_folder.h"

@@ -1,0 +1,17 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/commands.h"
+#include "apps/learn/forest_commands.h"
+
+namespace depthmocap {
+
+void addForestCommand(CLI::App& app) {
+  CLI::App* forest = app.add_subcommand("forest", "Trains, inspects and measures the classifier");
+  forest->require_subcommand(1);
+  addForestTrain(*forest);
+  addForestInfo(*forest);
+  addForestEvaluate(*forest);
+  addForestMarkers(*forest);
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,33 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "apps/commands.h"
+#include "depthmocap/error.h"
+#include "libtracker/sensor/list_cameras.h"
+
+namespace depthmocap {
+namespace {
+
+void listCameras() {
+  std::vector<FoundCamera> cameras = listOpenNiCameras();
+  for (FoundCamera& camera : listV4l2Cameras()) cameras.push_back(std::move(camera));
+  if (cameras.empty()) {
+    throw Error(
+        "no camera found", "OpenNI2 and V4L2",
+        "docs/cameras.md says what to check: cable and power, rights, kernel drivers, the OpenNI2 drivers folder");
+  }
+  for (const FoundCamera& camera : cameras) {
+    std::cout << camera.source << "  " << camera.name;
+    if (!camera.formats.empty()) std::cout << " (" << camera.formats << ")";
+    std::cout << '\n';
+  }
+}
+
+}  // namespace
+
+void addCamerasCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("cameras", "Lists the depth cameras that are there, as names for --source.");
+  command->callback([] { listCameras(); });
+}
+
+}  // namespace depthmocap

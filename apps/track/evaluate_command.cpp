@@ -1,0 +1,118 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/commands.h"
+#include "depthmocap/error.h"
+#include "libtracker/evaluation/evaluate_joints.h"
+#include "libtracker/evaluation/evaluate_poses.h"
+
+namespace depthmocap {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct EvaluateOptions {
+  fs::path joints;
+  fs::path truth;
+  fs::path pose;
+  fs::path truth_pose;
+  EvaluationOptions evaluation;
+};
+
+// JSON knows no NaN: a figure about nothing is null.
+Json figure(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+template <typename Names, typename Values>
+Json namedFigures(const Names& names, const Values& values, int first = 0) {
+  Json object = Json::object();
+  for (auto i = static_cast<std::size_t>(first); i < names.size(); ++i) {
+    object[std::string(names[i])] = figure(values[static_cast<decltype(values.size())>(i)]);
+  }
+  return object;
+}
+
+// The file of a recording's truth folder, or `truth` itself if it is a file.
+fs::path truthFile(const fs::path& truth, const char* name) {
+  if (!fs::is_directory(truth)) return truth;
+  fs::path file = truth / "truth" / name;
+  if (!fs::exists(file)) {
+    throw Error(std::string("this recording has no truth/") + name, truth.string(),
+                "name a file in the same format with --truth or --truth-pose");
+  }
+  return file;
+}
+
+fs::path truthPoseFile(const EvaluateOptions& options) {
+  if (!options.truth_pose.empty()) return options.truth_pose;
+  if (fs::exists(options.truth) && !fs::is_directory(options.truth)) {
+    throw CLI::ValidationError("--pose", "needs --truth-pose when --truth names a file");
+  }
+  return truthFile(options.truth, "pose.csv");
+}
+
+std::optional<PoseFigures> poseFigures(const EvaluateOptions& options) {
+  if (options.pose.empty()) return std::nullopt;
+  return evaluatePoses(readPoseFile(options.pose), readPoseFile(truthPoseFile(options)), options.evaluation);
+}
+
+Json report(const JointFigures& joints, const std::optional<PoseFigures>& poses, const EvaluationOptions& options) {
+  Json json;
+  json["frames"] = joints.frames;
+  json["compared"] = joints.compared;
+  json["mean_joint_error_m"] = figure(joints.mean_error_m);
+  json["per_joint_error_m"] = namedFigures(kJointNames, joints.error_m);
+  json["map_10cm"] = figure(joints.mean_hit_rate);
+  json["pck_10cm"] = namedFigures(kJointNames, joints.hit_rate);
+  json["mean_bone_direction_error_deg"] = figure(joints.mean_bone_direction_error_deg);
+  json["mean_joint_angle_error_deg"] = poses ? figure(poses->mean_angle_error_deg) : Json(nullptr);
+  json["per_dof_error_deg"] = poses ? namedFigures(kDofNames, poses->error_deg, kFirstRotationDof) : Json::object();
+  json["jitter_m_s2"] = figure(joints.jitter_m_s2);
+  json["lost_fraction"] = figure(joints.lost_fraction);
+  json["truth_jitter_m_s2"] = figure(joints.truth_jitter_m_s2);
+  json["root_relative"] = options.root_relative;
+  if (poses) {
+    json["poses_compared"] = poses->compared;
+    json["mean_root_position_error_m"] = figure(poses->mean_root_position_error_m);
+  }
+  return json;
+}
+
+void evaluate(const EvaluateOptions& options) {
+  const std::optional<PoseFigures> poses = poseFigures(options);
+  const JointFigures joints = evaluateJoints(
+      readJointsFile(options.joints), readJointsFile(truthFile(options.truth, "joints.csv")), options.evaluation);
+  std::cout << report(joints, poses, options.evaluation).dump(2) << '\n';
+}
+
+}  // namespace
+
+void addEvaluateCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("evaluate", "Compares a tracked recording with the truth; prints JSON.");
+  const auto options = std::make_shared<EvaluateOptions>();
+  command->add_option("--joints", options->joints, "Joints file of the tracker")->required();
+  command->add_option("--truth", options->truth, "Recording with truth/joints.csv, or a joints file")->required();
+  CLI::Option* pose = command->add_option("--pose", options->pose, "Pose file of the tracker: adds joint angles");
+  command->add_option("--truth-pose", options->truth_pose, "True pose file; otherwise the recording's truth/pose.csv")
+      ->needs(pose);
+  command->add_option("--first", options->evaluation.first, "First frame number to compare");
+  command->add_option("--last", options->evaluation.last, "Last frame number to compare");
+  command->add_flag("--root-relative", options->evaluation.root_relative,
+                    "Compare positions relative to the pelvis, for a truth whose place in the room is not trusted");
+  command->footer(
+      "A truth frame without a tracked pose counts as lost and as a miss.\n"
+      "Example:\n"
+      "  depthmocap replay recordings/walk --joints joints.csv --pose pose.csv\n"
+      "  depthmocap evaluate --joints joints.csv --pose pose.csv --truth recordings/walk");
+  command->callback([options] { evaluate(*options); });
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,52 @@
+#pragma once
+#include <cstddef>
+#include <list>
+
+#include "depthmocap/depth_frame.h"
+#include "depthmocap/tracked_frame.h"
+#include "libtracker/output/look_ahead_smoother.h"
+#include "libtracker/skeleton/forward_kinematics.h"
+#include "libtracker/tracker/actor_model.h"
+
+namespace CLI {
+class App;
+}
+
+namespace depthmocap {
+
+// Tracked frames wait here for those that follow, and leave with the pose that all of them say together. Poses of one
+// unbroken track only: a frame without evidence, a pose found anew and a turn of the world are borders.
+class LookAhead {
+ public:
+  struct Frame {
+    std::size_t index = 0;  // of the caller
+    DepthFrame depth;
+    TrackedFrame tracked;
+    ActorModel actor;
+  };
+  // See LookAheadSmoother; 0 = frames leave as they came, at once.
+  explicit LookAhead(double half_width_s) : smoother_(half_width_s) {}
+
+  // `depth`: its memory is exchanged for another frame's. `actor`: the body in use at that frame.
+  void add(std::size_t index, DepthFrame& depth, const TrackedFrame& tracked, const ActorModel& actor);
+  // No frame will follow.
+  void finish() { smoother_.finish(); }
+  // The oldest frame that has not left, once it is due; null before. Valid until the next call.
+  const Frame* next();
+
+ private:
+  LookAheadSmoother smoother_;
+  std::list<Frame> waiting_;
+  std::list<Frame> spare_;  // their memory is used again
+  TrackState state_before_ = TrackState::Lost;
+  Eigen::Matrix3d R_world_camera_before_ = Eigen::Matrix3d::Zero();
+  ForwardKinematics fk_;
+};
+
+// --look-ahead; `seconds` keeps its value unless it is given.
+void addLookAheadOption(CLI::App& command, double& seconds);
+
+// Best for the mean error of rendered walks, runs and kicks that does not flatten punches.
+inline constexpr double kLookAhead_s = 0.13;
+
+}  // namespace depthmocap

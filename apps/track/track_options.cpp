@@ -1,0 +1,56 @@
+#include "apps/track/track_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/view/view_options.h"
+#include "libtracker/tracker/leave_out.h"
+
+namespace depthmocap {
+
+void addTrackOptions(CLI::App& command, TrackOptions& o) {
+  command
+      .add_option("--actor", o.actor, "Calibrated body (see calibrate); otherwise the size is fitted while tracking")
+      ->type_name("A.json");
+  command.add_option("--joints", o.joints, "Joint centres in the camera frame, CSV")->type_name("J.csv");
+  command.add_option("--pose", o.pose, "The 36 degrees of freedom a frame, CSV")->type_name("Q.csv");
+  command.add_option("--bvh", o.bvh, "Motion for animation programs, BVH, y up")->type_name("M.bvh");
+  command.add_option("--bvh-unit", o.bvh_unit, "Unit of length of the BVH: m or cm")
+      ->check(CLI::IsMember({"m", "cm"}))
+      ->capture_default_str();
+  command.add_flag("--bvh-rigid", o.bvh_rigid,
+                   "Bones of one length in the BVH; otherwise, without --actor, they follow the size as it is found");
+  command.add_option("--gltf", o.gltf, "Skeleton, body surface and motion, binary glTF")->type_name("M.glb");
+  command.add_option("--vmc", o.vmc, "Streams the motion by the VMC protocol (VSeeFace, Unity, Unreal)")
+      ->type_name("HOST:PORT");
+  command.add_option("--smooth", o.smooth, "Calms all outputs (One-Euro filter): 0 = off, 1 = most")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command.add_option("--labels", o.labels, "Folder for one body-part label image a frame, PNG")->type_name("DIR");
+  command.add_option("--preview", o.preview, "Film of the tracking beside a view from the side, MP4")
+      ->type_name("V.mp4");
+  command.add_option("--contact-sheet", o.contact_sheet, "Up to 12 preview pictures of the run on one sheet, PNG")
+      ->type_name("SHEET.png");
+  command.add_option("--stats", o.stats, "Counts and times of each stage, JSON")->type_name("S.json");
+  addViewOptions(command, o.view);
+  command.add_option("--forest", o.forest, "Body-part classifier (default: the one that comes with the build)");
+  command.add_option("--posedb", o.posedb, "Pose database (default: the one that comes with the build)");
+  command
+      .add_option("--method", o.method,
+                  "full: with the dense term and measured weights; paper: as Su, Chai, Xia 2016 give it")
+      ->check(CLI::IsMember({"full", "paper"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--without", o.without,
+          "Parts of the method to leave out, to measure what each is worth; weights: the paper's instead of ours")
+      ->delimiter(',')
+      ->check(CLI::IsMember(optionalParts()))
+      ->type_name("PART,...");
+  command.add_option("--stature", o.assumed_stature_m, "Stature to start from without --actor [m]")
+      ->check(CLI::Range(1.0, 2.2));
+  command.add_option("--threads", o.threads, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,135 @@
+#include "apps/track/track_outputs.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "apps/draw/preview.h"
+#include "apps/track/animation_files.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/error.h"
+#include "libtracker/core/atomic_file.h"
+#include "libtracker/output/pose_smoother.h"
+#include "libtracker/output/vmc_sender.h"
+#include "libtracker/recording/track_files.h"
+#include "libtracker/skeleton/forward_kinematics.h"
+
+namespace depthmocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+JointsRow jointsRow(const TrackedFrame& tracked) {
+  JointsRow row;
+  row.frame = tracked.frame;
+  row.time_s = tracked.time_s;
+  row.state = tracked.state;
+  if (tracked.state == TrackState::Lost) return row;
+  row.p_camera = tracked.joints_camera;
+  row.confidence = tracked.confidence;
+  return row;
+}
+
+class LabelWriter {
+ public:
+  explicit LabelWriter(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code failure;
+    fs::create_directories(folder_, failure);
+    if (failure) throw Error("cannot make the folder: " + failure.message(), folder_.string());
+  }
+  void write(const TrackedFrame& tracked) const {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(tracked.frame));
+    const PartImage& labels = tracked.labels;
+    const cv::Mat image(labels.height, labels.width, CV_8UC1, const_cast<std::uint8_t*>(labels.data.data()));
+    std::vector<std::uint8_t> png;
+    cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 3});
+    writeFileAtomically(folder_ / name, {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+
+ private:
+  fs::path folder_;
+};
+
+}  // namespace
+
+struct TrackOutputs::Files {
+  Files(const TrackOptions& options, const RecordingInfo& info)
+      : animation(options, info.fps), smoother(options.smooth) {}
+
+  std::optional<JointsWriter> joints;
+  std::optional<PoseWriter> pose;
+  std::optional<LabelWriter> labels;
+  std::optional<PreviewWriter> preview;
+  std::optional<ContactSheet> contact_sheet;
+  AnimationFiles animation;
+  std::optional<VmcSender> vmc;
+  PoseSmoother smoother;
+  TrackedFrame smoothed;
+  BoneLengths last_lengths;
+
+  const TrackedFrame& smooth(const TrackedFrame& tracked);
+};
+
+TrackOutputs::TrackOutputs(const TrackOptions& options, const RecordingInfo& info)
+    : files_(std::make_unique<Files>(options, info)) {
+  Files& f = *files_;
+  if (!options.joints.empty()) f.joints.emplace(options.joints);
+  if (!options.pose.empty()) f.pose.emplace(options.pose);
+  if (!options.labels.empty()) f.labels.emplace(options.labels);
+  if (!options.preview.empty()) f.preview.emplace(options.preview, info.camera, info.fps);
+  if (!options.vmc.empty()) f.vmc.emplace(options.vmc);
+  if (!options.contact_sheet.empty()) f.contact_sheet.emplace(options.contact_sheet, info.camera);
+}
+
+TrackOutputs::~TrackOutputs() {
+  try {
+    files_->animation.write(files_->last_lengths);
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): another failure is already being reported
+  }
+}
+
+const TrackedFrame& TrackOutputs::Files::smooth(const TrackedFrame& tracked) {
+  if (!smoother.on()) return tracked;
+  if (tracked.state == TrackState::Lost) {
+    smoother.reset();
+    return tracked;
+  }
+  if (tracked.R_world_camera != smoothed.R_world_camera) smoother.reset();
+  smoothed = tracked;
+  smoothed.q = smoother.smooth(tracked.q, tracked.time_s);
+  smoothed.joints_camera =
+      tracked.R_world_camera.transpose() * jointPositions(makeSkeleton(tracked.lengths), smoothed.q);
+  return smoothed;
+}
+
+const TrackedFrame& TrackOutputs::write(const DepthFrame& frame, const TrackedFrame& tracked) {
+  Files& f = *files_;
+  const TrackedFrame& shown = f.smooth(tracked);
+  const JointsRow row = jointsRow(shown);
+  if (f.joints) f.joints->write(row);
+  if (f.pose && shown.state != TrackState::Lost)
+    f.pose->write({shown.frame, shown.time_s, shown.q, shown.R_world_camera});
+  if (f.labels) f.labels->write(shown);
+  const PreviewFrame preview{&frame.depth, &shown.labels, &shown.markers_camera, &row};
+  if (f.preview) f.preview->write(preview);
+  if (f.contact_sheet) f.contact_sheet->add(preview);
+  f.animation.add(shown);
+  if (f.vmc) f.vmc->send(shown.time_s, shown.state, shown.lengths, shown.q);
+  f.last_lengths = shown.lengths;
+  return shown;
+}
+
+void TrackOutputs::finish(const ActorModel& actor) {
+  Files& f = *files_;
+  if (f.joints) f.joints->finish();
+  if (f.pose) f.pose->finish();
+  if (f.preview) f.preview->finish();
+  if (f.contact_sheet) f.contact_sheet->finish();
+  f.animation.write(actor.skeleton.lengths);
+}
+
+}  // namespace depthmocap

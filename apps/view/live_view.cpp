@@ -1,0 +1,154 @@
+#include "apps/view/live_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "apps/calibrate/live_calibration.h"
+#include "apps/view/frame_sender.h"
+#include "apps/view/live_page.h"
+#include "apps/view/view_options.h"
+#include "depthmocap/error.h"
+#include "libtracker/output/vmc_listener.h"
+#include "libtracker/sensor/recorder.h"
+
+namespace depthmocap {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLockReach = 6;  // [px] around the click for a measurement
+
+// "name-001" and so on: the first that is free.
+fs::path freeName(const fs::path& folder, const std::string& name, const std::string& extension) {
+  for (int i = 1;; ++i) {
+    fs::path path = folder / fmt::format("{}-{:03}{}", name, i, extension);
+    if (!fs::exists(path)) return path;
+  }
+}
+
+// The point that was clicked, camera frame [m]; nothing where the sensor saw nothing.
+std::optional<Eigen::Vector3d> pointAt(const ViewCommand& click, const DepthImage& depth, const CameraModel& camera) {
+  const int u = static_cast<int>(std::lround(click.x * (depth.width - 1)));
+  const int v = static_cast<int>(std::lround(click.y * (depth.height - 1)));
+  for (int reach = 0; reach <= kLockReach; ++reach) {
+    for (int y = v - reach; y <= v + reach; ++y) {
+      for (int x = u - reach; x <= u + reach; ++x) {
+        if (!depth.contains(x, y) || !(depth.at(x, y) > 0)) continue;
+        return camera.unproject(x, y, static_cast<double>(depth.at(x, y)));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+struct LiveView::Impl {
+  Impl(const TrackOptions& o, const std::string& source, const RecordingInfo& recording_info, Tracker& t)
+      : options(o),
+        info(recording_info),
+        tracker(t),
+        page(webServerConfig(o.view), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}),
+        sender(info.camera, [this](std::string message) { page.sendFrame(std::move(message)); }) {
+    if (o.view.vmc_listen > 0) assistants.emplace(o.view.vmc_listen);
+  }
+
+  void obey(const ViewCommand& command, const DepthFrame& frame);
+  void record(bool on);
+  void startCalibration();
+  void calibrate(const DepthFrame& frame);
+
+  const TrackOptions& options;
+  RecordingInfo info;
+  Tracker& tracker;
+  ViewFigures figures;
+  std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<LiveCalibration> calibration;
+  LivePage page;
+  FrameSender sender;  // after the page
+  std::optional<VmcListener> assistants;
+};
+
+void LiveView::Impl::obey(const ViewCommand& command, const DepthFrame& frame) {
+  try {
+    if (command.action == ViewAction::Record) record(command.on);
+    if (command.action == ViewAction::Calibrate) startCalibration();
+    if (command.action == ViewAction::Reset) {
+      tracker.reset();
+      page.sendEvent("reset", "Looking for somebody anew.");
+    }
+    if (command.action == ViewAction::Lock) {
+      const auto point = pointAt(command, frame.depth, info.camera);
+      if (!point) throw Error("there is no measurement at that place", "lock", "click on the person's body");
+      tracker.lockOn(*point);
+      page.sendEvent("lock", fmt::format("Looking for a person {:.1f} m away.", point->z()));
+    }
+  } catch (const Error& error) {
+    page.sendEvent("failure", error.what());
+  }
+}
+
+void LiveView::Impl::record(bool on) {
+  if (on == (recorder != nullptr)) return;
+  if (on) {
+    const fs::path folder = freeName(options.view.folder, "take", "");
+    recorder = std::make_unique<Recorder>(folder, info, false);
+    page.sendEvent("record", "Recording to " + folder.string());
+    return;
+  }
+  const std::unique_ptr<Recorder> ended = std::move(recorder);
+  ended->finish(0);
+  page.sendEvent("record", fmt::format("Recorded {} frames to {}", ended->status().written, ended->folder().string()));
+}
+
+void LiveView::Impl::startCalibration() {
+  if (calibration) return;
+  calibration = std::make_unique<LiveCalibration>(options, info);
+  page.sendEvent("calibrate", calibration->text());
+}
+
+// Tells what to change while frames are collected; at the end the tracker takes the new body.
+void LiveView::Impl::calibrate(const DepthFrame& frame) {
+  if (!calibration) return;
+  try {
+    if (calibration->add(frame)) page.sendEvent("calibrate", calibration->text());
+    if (!calibration->enough()) return;
+    const fs::path path = freeName(options.view.folder, "actor", ".json");
+    calibration->finish(path, tracker);
+    page.sendEvent("calibrated", calibration->text());
+  } catch (const Error& error) {
+    page.sendEvent("failure", error.what());
+  }
+  calibration.reset();
+}
+
+LiveView::LiveView(const TrackOptions& options, const std::string& source, const RecordingInfo& info, Tracker& tracker)
+    : impl_(std::make_unique<Impl>(options, source, info, tracker)) {
+  impl_->page.start();
+  std::cerr << "view: " << impl_->page.server().url() << std::endl;
+}
+
+LiveView::~LiveView() = default;
+
+void LiveView::onFrame(const DepthFrame& frame, const TrackedFrame& shown) {
+  Impl& s = *impl_;
+  if (s.recorder) s.recorder->push({frame, {}});
+  if (s.page.frameWanted()) {
+    s.figures.clients = s.page.server().clients();
+    s.figures.recording = s.recorder != nullptr;
+    s.sender.send(frame.depth, shown, s.figures);
+  }
+  s.calibrate(frame);
+  if (s.assistants && s.assistants->calibrationAsked()) s.obey({.action = ViewAction::Calibrate}, frame);
+  while (const auto command = s.page.nextCommand()) s.obey(*command, frame);
+}
+
+void LiveView::onStatus(const LiveStatus& status) {
+  impl_->figures.fps = status.fps;
+  impl_->figures.latency_ms = status.latency_ms;
+}
+
+}  // namespace depthmocap

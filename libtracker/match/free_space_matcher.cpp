@@ -1,0 +1,82 @@
+#include "libtracker/match/free_space_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "depthmocap/error.h"
+
+namespace depthmocap {
+namespace {
+
+constexpr double kMinDepth_m = 0.2;  // nearer the projection says nothing
+
+}  // namespace
+
+void FreeSpaceConfig::validate() const {
+  if (!(margin_m >= 0)) throw Error("margin_m must not be negative", "free space settings");
+  if (!(sigma_m > 0)) throw Error("sigma_m must be above 0", "free space settings");
+  if (!(weight > 0 && weight <= 1)) throw Error("weight must be above 0 and at most 1", "free space settings");
+  if (max_matches < 0 || max_matches > kMaxSurfaceMatches) {
+    throw Error("max_matches must be from 0 to " + std::to_string(kMaxSurfaceMatches), "free space settings");
+  }
+}
+
+FreeSpaceMatcher::FreeSpaceMatcher(const FreeSpaceConfig& config) : config_(config) {
+  config_.validate();
+  found_.reserve(kMaxSurfaceMatches);
+}
+
+void FreeSpaceMatcher::observe(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
+                               const Eigen::Matrix3d& R_world_camera) {
+  depth_ = &depth;
+  mask_ = &mask;
+  camera_ = camera;
+  R_world_camera_ = R_world_camera;
+  silhouette_.observe(mask);
+}
+
+FreeSpaceMatcher::Violation FreeSpaceMatcher::check(const Eigen::Vector3f& p_world) const {
+  const Eigen::Vector3d p = R_world_camera_.transpose() * p_world.cast<double>();
+  if (p.z() < kMinDepth_m) return {};
+  const Eigen::Vector2d pixel = camera_.project(p);
+  const int u = static_cast<int>(std::lround(pixel.x()));
+  const int v = static_cast<int>(std::lround(pixel.y()));
+  if (!depth_->contains(u, v)) return {};  // out of view: anything may be there
+  const auto measured = static_cast<double>(depth_->at(u, v));
+  Eigen::Vector3d target;
+  if (mask_->at(u, v) != 0) {
+    target = p * (measured / p.z());
+    if (target.z() <= p.z()) return {};  // on the surface, or hidden behind it
+  } else {
+    if (measured > 0 && measured < p.z()) return {};  // something stands before it
+    const Eigen::Vector2i inside = silhouette_.nearest(u, v);
+    target = camera_.unproject(inside.x(), inside.y(), p.z());
+  }
+  const Eigen::Vector3d away = p - target;
+  const double distance = away.norm();
+  // A pixel of the coarse outline is as far as this from the outline itself.
+  const double grain = mask_->at(u, v) != 0 ? 0.0 : 0.5 * Silhouette::kStep * p.z() / camera_.fx;
+  const double allowed = config_.margin_m + grain;
+  if (distance <= allowed) return {};
+  const Eigen::Vector3d direction = away / distance;
+  return {R_world_camera_ * (target + allowed * direction), R_world_camera_ * direction, distance - allowed};
+}
+
+void FreeSpaceMatcher::match(const PlacedSurface& placed, SurfaceMatches& matches) {
+  if (config_.max_matches == 0 || silhouette_.empty()) return;
+  found_.clear();
+  for (const auto& part : placed.parts) {
+    for (const PlacedSurface::Point& point : part) {
+      const Violation violation = check(point.p_world);
+      if (violation.size_m <= 0) continue;
+      const double ratio = violation.size_m / config_.sigma_m;
+      found_.push_back({point.model, violation.target_world, violation.direction_world,
+                        config_.weight / (1.0 + 0.5 * ratio * ratio)});
+    }
+  }
+  const std::size_t room = static_cast<std::size_t>(kMaxSurfaceMatches) - matches.size();
+  const std::size_t kept = std::min({found_.size(), static_cast<std::size_t>(config_.max_matches), room});
+  for (std::size_t i = 0; i < kept; ++i) matches.push_back(found_[i * found_.size() / kept]);
+}
+
+}  // namespace depthmocap

@@ -1,0 +1,40 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "depthmocap/parts.h"
+#include "libtracker/match/placed_surface.h"
+#include "libtracker/skeleton/surface_match.h"
+
+namespace depthmocap {
+
+// A measured point of the actor with the parts that it may belong to.
+struct SurfaceSample {
+  Eigen::Vector3f p_world = Eigen::Vector3f::Zero();  // [m]
+  std::array<float, kPartCount> probability{};        // of each part
+};
+
+struct SurfaceMatchConfig {
+  double max_distance_m = 0.30;   // [m] (> 0) a sample further from its surface point has no match
+  double match_sigma_m = 0.04;    // [m] (> 0) how far the surface is expected from a sample of its part
+  double min_probability = 0.02;  // (0, 1] no part is held less likely: the classifier may be wrong
+  double sigma_m = 0.02;          // [m] (> 0) of the Lorentzian that weighs a match by its distance
+  int max_matches = 450;          // (1 .. kMaxSurfaceMatches)
+  void validate() const;
+};
+
+// Pairs each measured point with the point of the placed surface that is the most likely by its distance and by the
+// sample's part probabilities. One object in a loop allocates nothing after its first calls.
+class SurfaceMatcher {
+ public:
+  explicit SurfaceMatcher(const SurfaceMatchConfig& config);
+
+  // At most max_matches of the samples are looked at, spread evenly.
+  void match(const PlacedSurface& placed, const std::vector<SurfaceSample>& samples, SurfaceMatches& matches) const;
+
+ private:
+  SurfaceMatchConfig config_;
+};
+
+}  // namespace depthmocap
