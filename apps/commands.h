@@ -7,6 +7,7 @@ class App;
 // Each adds one command to the program. Its callback does the work: results to stdout or files, Error on failure.
 namespace depthmocap {
 
+void addBodyTemplatesCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app);
 void addCamerasCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);

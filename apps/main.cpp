@@ -28,6 +28,7 @@ void addCommands(CLI::App& app) {
   addPosedbCommand(app);
   addIkCommand(app);
   addShapeSpaceCommand(app);
+  addBodyTemplatesCommand(app);
   addServeCommand(app);
   addSynthesizeCommand(app);
 }

@@ -13,7 +13,7 @@
 #include "calibration/tpose_prior.h"
 #include "depthmocap/error.h"
 #include "depthmocap/world_frame.h"
-#include "libtracker/classify/classify.h"
+#include "libtracker/actor/make_actor.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/markers/find_markers.h"
@@ -62,10 +62,14 @@ std::vector<Eigen::Vector3f> actorPoints(const DepthImage& depth, const MaskImag
 }
 
 // Where the camera measures otherwise than the given stature by more than a calibration can be wrong, its scale is.
-CalibratedActor withStature(const CalibratedActor& actor, double stature_m) {
-  const double factor = stature_m / actor.stature();
-  CalibratedActor result = scaledActor(actor, factor);
-  if (std::abs(factor - 1.0) > kScaleTolerance) result.depth_scale = factor;
+Actor withStature(const Actor& actor, double stature_m) {
+  const double factor = stature_m / actor.stature_m();
+  Actor result = scaledActor(actor, factor);
+  if (std::abs(factor - 1.0) > kScaleTolerance) {
+    ActorMeasurement measured = *result.measured;
+    measured.depth_scale = factor;
+    result.measured = std::make_shared<const ActorMeasurement>(std::move(measured));
+  }
   return result;
 }
 
@@ -90,7 +94,8 @@ struct Calibrator::Impl {
         config(cfg),
         segmenter(SegmentConfig{}),
         finder(MarkerConfig{}),
-        templates{BodyTemplate(Sex::Male, cfg.surface_points), BodyTemplate(Sex::Female, cfg.surface_points)} {
+        tpose_memory(models->tpose->newMemory()),
+        general_memory(models->general->newMemory()) {
     classify_config.stride = kStride_px;
     classify_config.threads = config.threads;
   }
@@ -102,12 +107,12 @@ struct Calibrator::Impl {
   void keep(GoodFrame good);
   [[nodiscard]] PoseObservation observationOf(const GoodFrame& good, const ShapeVector& shape) const;
   using Start = std::function<ShapeVector(const BodyTemplate&)>;
-  CalibratedActor fit(const std::vector<const GoodFrame*>& frames, const std::vector<PoseObservation>& others);
-  CalibratedActor fitBetterTemplate(const std::vector<const GoodFrame*>& frames,
-                                    const std::vector<PoseObservation>& others, const Start& start, Pose& q);
+  Actor fit(const std::vector<const GoodFrame*>& frames, const std::vector<PoseObservation>& others);
+  Actor fitBetterTemplate(const std::vector<const GoodFrame*>& frames, const std::vector<PoseObservation>& others,
+                          const Start& start, const FittedLimbs* limbs, Pose& q);
   void refuseTwoPeople() const;
   [[noreturn]] void refuse() const;
-  [[nodiscard]] CalibratedActor believed(const CalibratedActor& actor) const;
+  [[nodiscard]] Actor believed(const Actor& actor) const;
 
   const std::shared_ptr<const CalibratorModels> models;
   const CameraModel camera;
@@ -116,11 +121,11 @@ struct Calibrator::Impl {
   ClassifyConfig classify_config;
   Segmenter segmenter;
   MarkerFinder finder;
-  const std::array<BodyTemplate, 2> templates;
 
   Segmentation segmentation;
   Segmentation rival;
-  ClassifyMemory memory;
+  const std::unique_ptr<PartClassifier::Memory> tpose_memory;
+  const std::unique_ptr<PartClassifier::Memory> general_memory;
   ClassifiedPixels pixels;
   DepthImage scaled_depth;
   std::vector<GoodFrame> good;
@@ -132,7 +137,7 @@ struct Calibrator::Impl {
 
 TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
   segmenter.segment(frame.depth, camera, nullptr, segmentation);
-  const std::vector<Eigen::Vector3f> points = actorPoints(frame.depth, segmentation.mask, camera);
+  const std::vector<Eigen::Vector3f> points = actorPoints(frame.depth, segmentation.actor().mask, camera);
   if (points.size() < kFewestPixels) return {TPoseFault::Nobody, "nobody is in view", 0};
   if (config.any_pose) {
     ++good_count;
@@ -140,7 +145,7 @@ TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
   }
   GoodFrame candidate;
   candidate.outline = measureOutline(points);
-  TPoseVerdict verdict = checkTPose(segmentation.mask, candidate.outline, config.check);
+  TPoseVerdict verdict = checkTPose(segmentation.actor().mask, candidate.outline, config.check);
   if (!verdict.good()) return verdict;
   const double stature = candidate.outline.height();
   classifyScaled(frame.depth, stature);
@@ -149,10 +154,10 @@ TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
     return {TPoseFault::PartsMissing, "not all body parts are recognised: stand freely, away from furniture", 0};
   }
   if (secondPerson(frame)) return kTwoPeople;
-  classify(models->general, frame.depth, segmentation.mask, camera.fx, classify_config, memory, pixels);
+  models->general->classify(frame.depth, segmentation.actor().mask, camera, classify_config, *general_memory, pixels);
   candidate.markers_world = findMarkers(stature);
   candidate.frame = frame;
-  candidate.mask = segmentation.mask;
+  candidate.mask = segmentation.actor().mask;
   candidate.deviation = verdict.deviation;
   if (segmentation.floor_camera) {
     Eigen::Vector4d floor = *segmentation.floor_camera;
@@ -167,16 +172,16 @@ TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
 bool Calibrator::Impl::secondPerson(const DepthFrame& frame) {
   DepthImage rest = frame.depth;
   for (std::size_t i = 0; i < rest.data.size(); ++i) {
-    if (segmentation.mask.data[i] != 0) rest.data[i] = 0.0F;
+    if (segmentation.actor().mask.data[i] != 0) rest.data[i] = 0.0F;
   }
   Segmenter other{SegmentConfig{}};
   other.segment(rest, camera, nullptr, rival);
-  if (rival.pixel_count < kRivalShare * segmentation.pixel_count) return false;
+  if (rival.actor().pixel_count < kRivalShare * segmentation.actor().pixel_count) return false;
   float top = 1e9F;
   float bottom = -1e9F;
   for (int y = 0; y < rest.height; ++y) {
     for (int x = 0; x < rest.width; ++x) {
-      if (rival.mask.at(x, y) == 0 || rest.at(x, y) <= 0) continue;
+      if (rival.actor().mask.at(x, y) == 0 || rest.at(x, y) <= 0) continue;
       const auto p = camera.unproject(x, y, static_cast<double>(rest.at(x, y)));
       top = std::min(top, static_cast<float>(p.y()));
       bottom = std::max(bottom, static_cast<float>(p.y()));
@@ -191,7 +196,7 @@ void Calibrator::Impl::classifyScaled(const DepthImage& depth, double stature_m)
   const auto scale = static_cast<float>(kAverageStature_m / stature_m);
   scaled_depth = depth;
   for (float& value : scaled_depth.data) value *= scale;
-  classify(models->tpose, scaled_depth, segmentation.mask, camera.fx, classify_config, memory, pixels);
+  models->tpose->classify(scaled_depth, segmentation.actor().mask, camera, classify_config, *tpose_memory, pixels);
   for (auto& pixel : pixels.pixels) pixel.depth_m /= scale;
 }
 
@@ -223,8 +228,7 @@ PoseObservation Calibrator::Impl::observationOf(const GoodFrame& g, const ShapeV
   return observation;
 }
 
-CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frames,
-                                      const std::vector<PoseObservation>& others) {
+Actor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frames, const std::vector<PoseObservation>& others) {
   const GoodFrame& first = *frames.front();
   std::vector<std::vector<CloudPoint>> clouds;
   clouds.reserve(frames.size());
@@ -232,8 +236,7 @@ CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frame
   shown.limbs = fitLimbs(clouds, first.outline);
   Pose q;
   const auto start = [&](const BodyTemplate& body) { return startShape(body, first.outline, shown.limbs); };
-  CalibratedActor actor = fitBetterTemplate(frames, others, start, q);
-  setRadii(shown.limbs, actor);
+  Actor actor = fitBetterTemplate(frames, others, start, &shown.limbs, q);
   shown.frame = first.frame;
   shown.mask = first.mask;
   shown.q = q;
@@ -241,32 +244,35 @@ CalibratedActor Calibrator::Impl::fit(const std::vector<const GoodFrame*>& frame
 }
 
 // The man's or the woman's body, whichever fits better; `q` is the pose of the first frame.
-CalibratedActor Calibrator::Impl::fitBetterTemplate(const std::vector<const GoodFrame*>& frames,
-                                                    const std::vector<PoseObservation>& others, const Start& start,
-                                                    Pose& q) {
+Actor Calibrator::Impl::fitBetterTemplate(const std::vector<const GoodFrame*>& frames,
+                                          const std::vector<PoseObservation>& others, const Start& start,
+                                          const FittedLimbs* limbs, Pose& q) {
+  const std::array<const BodyTemplate*, 2> templates = {&BodyTemplate::ofSex(Sex::Male),
+                                                        &BodyTemplate::ofSex(Sex::Female)};
   std::array<JointSolution, 2> solutions;
   parallelFor(config.threads, templates.size(), [&](std::size_t i) {
-    const ShapeVector shape = start(templates[i]);
+    const ShapeVector shape = start(*templates[i]);
     std::vector<PoseObservation> observations;
     for (const GoodFrame* frame : frames) {
       observations.push_back(observationOf(*frame, shape));
       observations.back().weight = 1.0 / static_cast<double>(frames.size());
     }
     observations.insert(observations.end(), others.begin(), others.end());
-    solutions[i] = solveJointly(templates[i], models->space, observations, shape, config.solve);
+    solutions[i] = solveJointly(*templates[i], models->space, observations, shape, config.solve);
   });
   const std::size_t best = solutions[1].cost < solutions[0].cost ? 1 : 0;
   const JointSolution& solution = solutions[best];
-  CalibratedActor actor;
-  actor.sex = best == 0 ? Sex::Male : Sex::Female;
-  actor.shape = solution.shape;
-  actor.model = actorOfShape(templates[best], solution.shape);
-  actor.model.markers = solution.markers;
-  actor.fit.tpose_frames = static_cast<int>(frames.size());
-  actor.fit.other_frames = static_cast<int>(others.size());
-  actor.fit.surface_m = solution.rms_surface_m;
-  actor.fit.marker_m = solution.rms_marker_m;
-  actor.fit.confidence = fitConfidence(solution);
+  ActorMeasurement measured;
+  measured.sex = best == 0 ? Sex::Male : Sex::Female;
+  measured.shape = solution.shape;
+  measured.fit.tpose_frames = static_cast<int>(frames.size());
+  measured.fit.other_frames = static_cast<int>(others.size());
+  measured.fit.surface_m = solution.rms_surface_m;
+  measured.fit.marker_m = solution.rms_marker_m;
+  measured.fit.confidence = fitConfidence(solution);
+  if (limbs != nullptr) setRadii(*limbs, measured);
+  Actor actor = measuredActor(measured);
+  actor.markers = solution.markers;
   q = solution.poses.front();
   return actor;
 }
@@ -278,16 +284,16 @@ void Calibrator::Impl::refuseTwoPeople() const {
 }
 
 // The actor, scaled to the stature that is given; throws where the fit says that it is none.
-CalibratedActor Calibrator::Impl::believed(const CalibratedActor& actor) const {
-  if (actor.fit.confidence < kLeastConfidence) {
+Actor Calibrator::Impl::believed(const Actor& actor) const {
+  if (actor.measured->fit.confidence < kLeastConfidence) {
     throw Error(
         fmt::format("the body that fits best lies {:.0f} mm off the depth points: this is no T-pose, or no bare "
                     "view of a person",
-                    1000 * actor.fit.surface_m),
+                    1000 * actor.measured->fit.surface_m),
         "calibration", "record again, without long coats and away from furniture");
   }
-  if (actor.stature() < config.check.min_stature_m || actor.stature() > config.check.max_stature_m) {
-    throw Error(fmt::format("what is in view is {:.2f} m tall: no adult's size", actor.stature()), "calibration",
+  if (actor.stature_m() < config.check.min_stature_m || actor.stature_m() > config.check.max_stature_m) {
+    throw Error(fmt::format("what is in view is {:.2f} m tall: no adult's size", actor.stature_m()), "calibration",
                 "let only the actor stand before the camera");
   }
   return config.stature_m ? withStature(actor, *config.stature_m) : actor;
@@ -337,7 +343,7 @@ bool Calibrator::enough() const {
   return impl_->good_count >= impl_->config.frames;
 }
 
-CalibratedActor Calibrator::solve(const std::vector<PoseObservation>& others) {
+Actor Calibrator::solve(const std::vector<PoseObservation>& others) {
   Impl& s = *impl_;
   s.refuseTwoPeople();
   if (!enough()) s.refuse();
@@ -346,7 +352,7 @@ CalibratedActor Calibrator::solve(const std::vector<PoseObservation>& others) {
   return s.believed(s.fit(frames, others));
 }
 
-CalibratedActor Calibrator::solveWithoutTPose(const std::vector<PoseObservation>& others, double stature_m) {
+Actor Calibrator::solveWithoutTPose(const std::vector<PoseObservation>& others, double stature_m) {
   Impl& s = *impl_;
   s.refuseTwoPeople();
   if (!enough()) s.refuse();
@@ -360,7 +366,7 @@ CalibratedActor Calibrator::solveWithoutTPose(const std::vector<PoseObservation>
     return shapeVector(lengths.scaled(stature_m / statureOf(lengths)), body.girthOf(stature_m));
   };
   Pose q;
-  return s.believed(s.fitBetterTemplate({}, others, start, q));
+  return s.believed(s.fitBetterTemplate({}, others, start, nullptr, q));
 }
 
 const Calibrator::Shown& Calibrator::shown() const {

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibrated_actor.h"
 #include "calibration/joint_solve.h"
 #include "calibration/limb_shapes.h"
 #include "calibration/shape_space.h"
 #include "calibration/tpose_check.h"
+#include "depthmocap/actor.h"
 #include "depthmocap/depth_frame.h"
-#include "libtracker/classify/forest.h"
+#include "libtracker/classify/part_classifier.h"
 
 namespace depthmocap {
 
@@ -27,8 +27,8 @@ struct CalibratorConfig {
 };
 
 struct CalibratorModels {
-  Forest tpose;    // knows the parts of a T-pose
-  Forest general;  // the tracker's: markers are calibrated as the tracker will see them
+  std::shared_ptr<const PartClassifier> tpose;    // knows the parts of a T-pose
+  std::shared_ptr<const PartClassifier> general;  // the tracker's: markers are calibrated as the tracker will see them
   ShapeSpace space;
 };
 
@@ -54,11 +54,11 @@ class Calibrator {
   // The body by the frames so far. Throws Error saying why the recording does not do and what to change: too few good
   // frames (with the most frequent fault), two people, no body that fits. `others`: frames in other poses
   // (PoseCollector), which are solved for together with the T-pose.
-  CalibratedActor solve(const std::vector<PoseObservation>& others = {});
+  Actor solve(const std::vector<PoseObservation>& others = {});
 
   // Where there is no T-pose (config.any_pose): the body by frames in other poses alone, less surely. `stature_m` [m]:
   // what the tracker that gave the poses took it for. Throws Error as solve() does.
-  CalibratedActor solveWithoutTPose(const std::vector<PoseObservation>& others, double stature_m);
+  Actor solveWithoutTPose(const std::vector<PoseObservation>& others, double stature_m);
 
   // Of the last solve(): the frame that a preview shows, its mask, the limbs and the pose.
   struct Shown {

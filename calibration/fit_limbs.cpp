@@ -140,14 +140,14 @@ ShapeVector startShape(const BodyTemplate& body, const BodyOutline& outline, con
   return shape;
 }
 
-void setRadii(const FittedLimbs& limbs, CalibratedActor& actor) {
-  actor.upper_arm_radius_m = sharedRadius(limbs, Part::LeftUpperArm);
-  actor.lower_arm_radius_m = sharedRadius(limbs, Part::LeftLowerArm);
-  actor.upper_leg_radius_m = sharedRadius(limbs, Part::LeftUpperLeg);
-  actor.lower_leg_radius_m = sharedRadius(limbs, Part::LeftLowerLeg);
+void setRadii(const FittedLimbs& limbs, ActorMeasurement& measured) {
+  measured.upper_arm_radius_m = sharedRadius(limbs, Part::LeftUpperArm);
+  measured.lower_arm_radius_m = sharedRadius(limbs, Part::LeftLowerArm);
+  measured.upper_leg_radius_m = sharedRadius(limbs, Part::LeftUpperLeg);
+  measured.lower_leg_radius_m = sharedRadius(limbs, Part::LeftLowerLeg);
   if (!limbs.torso) return;
-  actor.torso_half_width_m = limbs.torso->half_width;
-  actor.torso_half_depth_m = limbs.torso->half_depth;
+  measured.torso_half_width_m = limbs.torso->half_width;
+  measured.torso_half_depth_m = limbs.torso->half_depth;
 }
 
 double fitConfidence(const JointSolution& solution) {

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "calibration/calibrated_actor.h"
 #include "calibration/calibrator.h"
 #include "calibration/pose_observation.h"
+#include "depthmocap/actor.h"
 
 namespace depthmocap {
 
@@ -15,8 +15,8 @@ FittedLimbs fitLimbs(const std::vector<std::vector<CloudPoint>>& clouds, const B
 // and right equal.
 ShapeVector startShape(const BodyTemplate& body, const BodyOutline& outline, const FittedLimbs& limbs);
 
-// The cylinders' radii in the actor.
-void setRadii(const FittedLimbs& limbs, CalibratedActor& actor);
+// Notes the cylinders' radii.
+void setRadii(const FittedLimbs& limbs, ActorMeasurement& measured);
 
 // [0, 1] by how much of the cloud the fitted surface explains and how closely.
 double fitConfidence(const JointSolution& solution);

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "calibration/body_template.h"
 #include "calibration/pose_observation.h"
 #include "calibration/shape_space.h"
+#include "libtracker/actor/body_template.h"
 #include "libtracker/skeleton/marker_model.h"
 
 namespace depthmocap {

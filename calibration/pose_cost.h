@@ -3,9 +3,9 @@
 
 #include <ceres/cost_function.h>
 
-#include "calibration/body_template.h"
 #include "calibration/joint_solve.h"
 #include "calibration/pose_observation.h"
+#include "libtracker/actor/body_template.h"
 
 namespace depthmocap {
 

@@ -2,12 +2,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "calibration/body_template.h"
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
 #include "depthmocap/marker_set.h"
 #include "depthmocap/parts.h"
 #include "depthmocap/pose.h"
+#include "libtracker/actor/body_template.h"
 #include "libtracker/core/classified_pixels.h"
 
 namespace depthmocap {

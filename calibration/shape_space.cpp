@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "depthmocap/error.h"
-#include "libtracker/body/builtin_body.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/json_file.h"
+#include "libtracker/skeleton/typical_bone_lengths.h"
 
 namespace depthmocap {
 namespace {
@@ -61,18 +61,6 @@ LengthVector fromJson(const nlohmann::json& object, const std::string& where) {
 }
 
 }  // namespace
-
-LengthVector lengthVector(const BoneLengths& lengths) {
-  LengthVector s;
-  for (int i = 0; i < kBoneLengthCount; ++i) s[i] = lengths.*kBoneLengthFields[static_cast<std::size_t>(i)];
-  return s;
-}
-
-BoneLengths boneLengths(const LengthVector& s) {
-  BoneLengths lengths;
-  for (int i = 0; i < kBoneLengthCount; ++i) lengths.*kBoneLengthFields[static_cast<std::size_t>(i)] = s[i];
-  return lengths;
-}
 
 LengthVector ShapeSpace::offSpace(const LengthVector& s) const {
   const LengthVector d = s - mean;

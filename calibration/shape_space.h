@@ -4,14 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "libtracker/skeleton/skeleton.h"
+#include "libtracker/skeleton/length_vector.h"
 
 namespace depthmocap {
-
-// Bone lengths as a vector [m], in the order of kBoneLengthFields.
-using LengthVector = Eigen::Matrix<double, kBoneLengthCount, 1>;
-LengthVector lengthVector(const BoneLengths& lengths);
-BoneLengths boneLengths(const LengthVector& s);
 
 // The skeleton shape space of method section A (6): s = H tau + s_mean, a PCA model over bone lengths.
 struct ShapeSpace {

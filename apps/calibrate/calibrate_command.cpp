@@ -18,11 +18,12 @@
 #include "calibration/calibrator.h"
 #include "calibration/pose_collector.h"
 #include "depthmocap/error.h"
+#include "depthmocap/tracker.h"
+#include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
 #include "libtracker/core/shipped_files.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/sensor/open_source.h"
-#include "libtracker/tracker/tracker.h"
 
 namespace depthmocap {
 namespace {
@@ -48,10 +49,10 @@ struct CalibrateOptions {
   double seconds = 60;
 };
 
-std::shared_ptr<const CalibratorModels> loadModels(const CalibrateOptions& o) {
+std::shared_ptr<const CalibratorModels> calibratorModels(const CalibrateOptions& o) {
   const auto models = std::make_shared<CalibratorModels>();
-  models->tpose = loadForest(shippedFile("tpose.forest"));
-  models->general = loadForest(o.forest.empty() ? shippedFile("general.forest") : o.forest);
+  models->tpose = std::make_shared<const ForestClassifier>(loadForest(shippedFile("tpose.forest")));
+  models->general = Models::load(o.forest, o.posedb).classifier;
   models->space = loadShapeSpace(o.shape_space.empty() ? shippedFile("shape_space.json") : o.shape_space);
   return models;
 }
@@ -83,20 +84,16 @@ struct OtherPoses {
 
 // Tracks the recording with the body that the T-pose gave, or (null) with an average one of the assumed stature, to
 // learn from other poses.
-OtherPoses otherPoses(const CalibrateOptions& o, RecordingReader& reader, const CalibratedActor* actor,
+OtherPoses otherPoses(const CalibrateOptions& o, RecordingReader& reader, const Actor* actor,
                       double assumed_stature_m = 0) {
   TrackOptions track;
   track.forest = o.forest;
   track.posedb = o.posedb;
-  auto models = std::make_shared<TrackerModels>(*loadTrackerModels(track));
-  std::optional<ActorModel> body;
-  if (actor != nullptr) {
-    models->surface = actorSurface(*actor, o.config.surface_points);
-    body = actor->model;
-  }
+  std::optional<Actor> body;
+  if (actor != nullptr) body = *actor;
   track.threads = o.config.threads;
   track.assumed_stature_m = assumed_stature_m;
-  Tracker tracker(models, reader.info().camera, trackerConfig(track), body);
+  Tracker tracker(loadModels(track), reader.info().camera, trackerConfig(track), body);
   PoseCollector collector(reader.info().camera, o.config.points_per_part);
   const std::size_t count = std::min(reader.frameCount(), kMostTracked);
   Progress progress("looking at other poses", count);
@@ -110,7 +107,7 @@ OtherPoses otherPoses(const CalibrateOptions& o, RecordingReader& reader, const 
 
 // What a calibration gave and how long its solve took.
 struct Calibration {
-  CalibratedActor actor;
+  Actor actor;
   RecordingInfo info;
   double solve_s = 0;
 };
@@ -142,7 +139,7 @@ void watch(DepthSource& source, Calibrator& calibrator, double limit_s) {
 
 Calibration calibrateLive(const CalibrateOptions& o) {
   const auto source = openSource(o.recording.string(), {});
-  Calibrator calibrator(loadModels(o), source->info().camera, o.config);
+  Calibrator calibrator(calibratorModels(o), source->info().camera, o.config);
   watch(*source, calibrator, o.seconds);
   Calibration result;
   result.info = source->info();
@@ -155,7 +152,7 @@ Calibration calibrateLive(const CalibrateOptions& o) {
 
 Calibration calibrateRecording(const CalibrateOptions& o) {
   const auto reader = openRecording(o.recording);
-  Calibrator calibrator(loadModels(o), reader->info().camera, o.config);
+  Calibrator calibrator(calibratorModels(o), reader->info().camera, o.config);
   collect(*reader, calibrator);
   Calibration result;
   result.info = reader->info();
@@ -167,7 +164,7 @@ Calibration calibrateRecording(const CalibrateOptions& o) {
   }
   result.solve_s = timed([&] { result.actor = calibrator.solve(); });
   if (!o.tpose_only) {
-    const CalibratedActor as_seen = scaledActor(result.actor, 1.0 / result.actor.depth_scale);
+    const Actor as_seen = asSeen(result.actor);
     const auto others = otherPoses(o, *reader, &as_seen).observations;
     if (others.size() >= kFewestOthers) result.actor = calibrator.solve(others);
   }
@@ -184,11 +181,13 @@ void calibrate(CalibrateOptions o) {
     throw Error("--any-pose needs a recording", o.recording.string(), "record first, or stand in a T-pose");
   }
   Calibration result = is_camera ? calibrateLive(o) : calibrateRecording(o);
-  result.actor.camera = result.info.camera_name;
+  ActorMeasurement measured = *result.actor.measured;
+  measured.camera = result.info.camera_name;
+  result.actor.measured = std::make_shared<const ActorMeasurement>(std::move(measured));
   writeActorFile(o.out, result.actor);
-  const CalibratedActor::Fit& fit = result.actor.fit;
+  const ActorMeasurement::Fit& fit = result.actor.measured->fit;
   std::cerr << fmt::format("a body of {:.3f} m from {} frames of T-pose (solved in {:.2f} s) and {} in other poses; ",
-                           result.actor.stature(), fit.tpose_frames, result.solve_s, fit.other_frames)
+                           result.actor.stature_m(), fit.tpose_frames, result.solve_s, fit.other_frames)
             << fmt::format("surface within {:.1f} mm, confidence {:.2f}\n", 1000 * fit.surface_m, fit.confidence);
 }
 

@@ -123,9 +123,9 @@ void drawLimbs(const FittedLimbs& limbs, View& view) {
                torso.side * torso.half_width, torso.side.cross(torso.axis) * torso.half_depth, kTorsoColor);
 }
 
-void drawBones(const CalibratedActor& actor, const Pose& q, View& view) {
+void drawBones(const Actor& actor, const Pose& q, View& view) {
   JointsRow row;
-  row.p_camera = jointPositions(actor.model.skeleton, q);  // in the world: only drawn
+  row.p_camera = jointPositions(actor.skeleton, q);  // in the world: only drawn
   row.confidence.setOnes();
   JointPixels pixels;
   for (int j = 0; j < kJointCount; ++j) {
@@ -136,22 +136,23 @@ void drawBones(const CalibratedActor& actor, const Pose& q, View& view) {
 
 }  // namespace
 
-void writeCalibrationPicture(const std::filesystem::path& path, const Calibrator::Shown& shown,
-                             const CalibratedActor& actor, const CameraModel& camera) {
+void writeCalibrationPicture(const std::filesystem::path& path, const Calibrator::Shown& shown, const Actor& actor,
+                             const CameraModel& camera) {
   cv::Mat canvas(kPanelHeight, 2 * kPanelWidth, CV_8UC3);
-  const auto& l = actor.model.skeleton.lengths;
+  const auto& l = actor.skeleton.lengths;
   // The middle of the standing body: between crown and soles.
-  const Vector3d center = shown.q.head<3>() + Vector3d(0, l.torso + 1.7 * l.neck_to_head - 0.5 * actor.stature(), 0);
+  const Vector3d center = shown.q.head<3>() + Vector3d(0, l.torso + 1.7 * l.neck_to_head - 0.5 * actor.stature_m(), 0);
   for (int i = 0; i < 2; ++i) {
     View view(canvas(cv::Rect(i * kPanelWidth, 0, kPanelWidth, kPanelHeight)), center,
-              std::max(actor.stature(), 1.0) * 1.08, i == 0 ? 0.0 : -kSideTurn, i == 0 ? 0.0 : kSideDown);
+              std::max(actor.stature_m(), 1.0) * 1.08, i == 0 ? 0.0 : -kSideTurn, i == 0 ? 0.0 : kSideDown);
     drawCloud(shown, camera, view);
     drawLimbs(shown.limbs, view);
     drawBones(actor, shown.q, view);
   }
-  drawText(fmt::format("stature {:.3f} m   arm {:.3f} + {:.3f}   leg {:.3f} + {:.3f}   torso {:.3f}   shoulders {:.3f}",
-                       actor.stature(), l.upper_arm, l.lower_arm, l.upper_leg, l.lower_leg, l.torso, l.shoulder_width),
-           {16, kPanelHeight - 16}, 0.55, kTextColor, canvas);
+  drawText(
+      fmt::format("stature {:.3f} m   arm {:.3f} + {:.3f}   leg {:.3f} + {:.3f}   torso {:.3f}   shoulders {:.3f}",
+                  actor.stature_m(), l.upper_arm, l.lower_arm, l.upper_leg, l.lower_leg, l.torso, l.shoulder_width),
+      {16, kPanelHeight - 16}, 0.55, kTextColor, canvas);
   std::vector<uchar> bytes;
   if (!cv::imencode(".png", canvas, bytes)) throw Error("the picture cannot be made", path.string());
   writeFileAtomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));

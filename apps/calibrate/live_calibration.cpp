@@ -6,6 +6,7 @@
 
 #include "apps/track/tracker_setup.h"
 #include "depthmocap/error.h"
+#include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
 #include "libtracker/core/shipped_files.h"
 
@@ -17,8 +18,8 @@ constexpr double kPatience_s = 30.0;  // after the countdown
 
 std::shared_ptr<const CalibratorModels> calibratorModels(const TrackOptions& options) {
   const auto models = std::make_shared<CalibratorModels>();
-  models->tpose = loadForest(shippedFile("tpose.forest"));
-  models->general = loadForest(options.forest.empty() ? shippedFile("general.forest") : options.forest);
+  models->tpose = std::make_shared<const ForestClassifier>(loadForest(shippedFile("tpose.forest")));
+  models->general = Models::load(options.forest, options.posedb).classifier;
   models->space = loadShapeSpace(shippedFile("shape_space.json"));
   return models;
 }
@@ -59,14 +60,13 @@ bool LiveCalibration::add(const DepthFrame& frame) {
 }
 
 void LiveCalibration::finish(const std::filesystem::path& path, Tracker& tracker) {
-  CalibratedActor actor = calibrator_.solve();
-  actor.camera = info_.camera_name;
+  Actor actor = calibrator_.solve();
+  ActorMeasurement measured = *actor.measured;
+  measured.camera = info_.camera_name;
+  actor.measured = std::make_shared<const ActorMeasurement>(std::move(measured));
   writeActorFile(path, actor);
-  TrackOptions with_actor = options_;
-  with_actor.actor = path;
-  const std::optional<ActorModel> model = actorOf(with_actor);
-  tracker.use(loadTrackerModels(with_actor), *model);
-  text_ = fmt::format("Calibrated: {:.2f} m, written to {}", actor.stature(), path.string());
+  tracker.use(asSeen(actor));
+  text_ = fmt::format("Calibrated: {:.2f} m, written to {}", actor.stature_m(), path.string());
 }
 
 }  // namespace depthmocap

@@ -6,8 +6,8 @@
 
 #include "apps/track/track_options.h"
 #include "calibration/calibrator.h"
+#include "depthmocap/tracker.h"
 #include "libtracker/recording/recording.h"
-#include "libtracker/tracker/tracker.h"
 
 namespace depthmocap {
 

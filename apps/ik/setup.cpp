@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/calibrated_actor.h"
+#include "depthmocap/actor.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/shipped_files.h"
 
@@ -32,7 +32,7 @@ void addIkOptions(CLI::App& command, IkOptions& o) {
 
 Skeleton ikSkeleton(const IkOptions& options) {
   if (options.actor.empty()) return makeSkeleton(BoneLengths{});
-  return readActorFile(options.actor).model.skeleton;
+  return readActorFile(options.actor).skeleton;
 }
 
 std::shared_ptr<const LearnedPoses> ikLearnedPoses(const IkOptions& options) {

@@ -93,8 +93,7 @@ std::string summaryText(const LiveFigures& f, const RunStats& stats) {
 struct LiveRun {
   explicit LiveRun(const LiveOptions& options)
       : source(openChosenSource(options.source)),
-        tracker(loadTrackerModels(options.track), source->info().camera, trackerConfig(options.track),
-                actorOf(options.track)),
+        tracker(loadModels(options.track), source->info().camera, trackerConfig(options.track), actorOf(options.track)),
         outputs(options.track, source->info()) {
     if (!options.record.empty()) recorder.emplace(options.record, source->info(), source->waitsForReader());
     if (options.track.view.on) view.emplace(options.track, options.source.source, source->info(), tracker);

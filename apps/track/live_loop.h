@@ -6,10 +6,10 @@
 
 #include "apps/track/live_figures.h"
 #include "depthmocap/depth_frame.h"
+#include "depthmocap/tracker.h"
 #include "libtracker/sensor/capture.h"
 #include "libtracker/sensor/newest_frame.h"
 #include "libtracker/sensor/recorder.h"
-#include "libtracker/tracker/tracker.h"
 
 namespace depthmocap {
 

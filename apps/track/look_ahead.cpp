@@ -4,24 +4,16 @@
 #include <utility>
 
 #include "libtracker/core/check.h"
-#include "libtracker/tracker/alignment.h"
+#include "libtracker/tracker/pose_fields.h"
 
 namespace depthmocap {
 namespace {
 
 constexpr double kMost_s = 1.0;
 
-// The same frame with another pose.
-void setPose(const Pose& q, const ActorModel& actor, ForwardKinematics& fk, TrackedFrame& frame) {
-  const Eigen::Matrix3d R_camera_world = frame.R_world_camera.transpose();
-  frame.q = q;
-  frame.joints_camera = R_camera_world * jointPositions(actor.skeleton, q);
-  frame.model_markers_camera = rotated(R_camera_world, modelMarkers(actor, q, fk));
-}
-
 }  // namespace
 
-void LookAhead::add(std::size_t index, DepthFrame& depth, const TrackedFrame& tracked, const ActorModel& actor) {
+void LookAhead::add(std::size_t index, DepthFrame& depth, const TrackedFrame& tracked, const Actor& actor) {
   if (spare_.empty()) spare_.emplace_back();
   waiting_.splice(waiting_.end(), spare_, spare_.begin());
   Frame& frame = waiting_.back();

@@ -2,11 +2,11 @@
 #include <cstddef>
 #include <list>
 
+#include "depthmocap/actor.h"
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/tracked_frame.h"
 #include "libtracker/output/look_ahead_smoother.h"
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "libtracker/tracker/actor_model.h"
 
 namespace CLI {
 class App;
@@ -22,13 +22,13 @@ class LookAhead {
     std::size_t index = 0;  // of the caller
     DepthFrame depth;
     TrackedFrame tracked;
-    ActorModel actor;
+    Actor actor;
   };
   // See LookAheadSmoother; 0 = frames leave as they came, at once.
   explicit LookAhead(double half_width_s) : smoother_(half_width_s) {}
 
   // `depth`: its memory is exchanged for another frame's. `actor`: the body in use at that frame.
-  void add(std::size_t index, DepthFrame& depth, const TrackedFrame& tracked, const ActorModel& actor);
+  void add(std::size_t index, DepthFrame& depth, const TrackedFrame& tracked, const Actor& actor);
   // No frame will follow.
   void finish() { smoother_.finish(); }
   // The oldest frame that has not left, once it is due; null before. Valid until the next call.

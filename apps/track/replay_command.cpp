@@ -19,8 +19,8 @@
 #include "apps/track/tracker_setup.h"
 #include "apps/view/replay_view.h"
 #include "depthmocap/error.h"
+#include "depthmocap/tracker.h"
 #include "libtracker/recording/recording.h"
-#include "libtracker/tracker/tracker.h"
 
 namespace depthmocap {
 namespace {
@@ -121,7 +121,7 @@ class ReplayOutputs {
     }
   }
   void countTracked() { rate_.count(); }
-  void finish(const ActorModel& actor) { outputs_.finish(actor); }
+  void finish(const Actor& actor) { outputs_.finish(actor); }
   // Until Ctrl-C.
   void stayForView() {
     if (!view_) return;
@@ -142,7 +142,7 @@ void replay(const ReplayOptions& options) {
   const StopRequest on_ctrl_c;
   const std::unique_ptr<RecordingReader> reader = openRecording(options.recording);
   const std::vector<std::size_t> chosen = chosenFrames(*reader, options);
-  Tracker tracker(loadTrackerModels(options.track), reader->info().camera, trackerConfig(options.track),
+  Tracker tracker(loadModels(options.track), reader->info().camera, trackerConfig(options.track),
                   actorOf(options.track));
   ReplayOutputs outputs(options, reader->info(), chosen.size());
   LookAhead waiting(options.look_ahead_s);

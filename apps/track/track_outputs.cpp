@@ -123,7 +123,7 @@ const TrackedFrame& TrackOutputs::write(const DepthFrame& frame, const TrackedFr
   return shown;
 }
 
-void TrackOutputs::finish(const ActorModel& actor) {
+void TrackOutputs::finish(const Actor& actor) {
   Files& f = *files_;
   if (f.joints) f.joints->finish();
   if (f.pose) f.pose->finish();

@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "apps/track/track_options.h"
+#include "depthmocap/actor.h"
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/tracked_frame.h"
 #include "libtracker/recording/recording.h"
-#include "libtracker/tracker/actor_model.h"
 
 namespace depthmocap {
 
@@ -18,7 +18,7 @@ class TrackOutputs {
   // Returns what was written: the tracked frame, smoothed as the options ask. Valid until the next call.
   const TrackedFrame& write(const DepthFrame& frame, const TrackedFrame& tracked);
   // `actor`: the body at the end of the run.
-  void finish(const ActorModel& actor);
+  void finish(const Actor& actor);
 
  private:
   struct Files;

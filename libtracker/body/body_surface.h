@@ -4,12 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "depthmocap/body_shape.h"
 #include "depthmocap/parts.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {
-
-enum class Sex { Male, Female };
 
 // What a body is made from.
 struct BodyShape {

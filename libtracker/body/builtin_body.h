@@ -1,5 +1,6 @@
 #pragma once
 #include "libtracker/body/body_surface.h"
+#include "libtracker/skeleton/typical_bone_lengths.h"
 
 namespace depthmocap {
 
@@ -14,8 +15,5 @@ BodySurface makeBuiltinBody(const BodyShape& shape, const BoneLengths& lengths);
 
 // A man of ordinary weight around given bone lengths: what a tracked skeleton is shown with.
 BodySurface makeBuiltinBody(const BoneLengths& lengths);
-
-// Bone lengths [m] of an adult of this sex and stature [m].
-BoneLengths typicalBoneLengths(Sex sex, double stature_m);
 
 }  // namespace depthmocap

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "depthmocap/surface_model.h"
 #include "libtracker/body/body_surface.h"
-#include "libtracker/skeleton/surface_model.h"
 
 namespace depthmocap {
 

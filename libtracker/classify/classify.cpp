@@ -124,18 +124,6 @@ void assumeFacing(const FacingShares& facing, int threads, const ClassifyMemory&
   });
 }
 
-void labelAs(const PartImage& parts, int threads, ClassifyMemory& memory, ClassifiedPixels& pixels) {
-  DMC_CHECK(memory.votes.size() == pixels.pixels.size());
-  for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
-    const int label = parts.at(pixels.pixels[i].x, pixels.pixels[i].y);
-    VoteRow votes{};
-    if (label == 0) std::fill_n(votes.begin(), kPartCount, std::uint16_t{1});
-    if (label != 0) votes[static_cast<std::size_t>(label - 1)] = 1;
-    memory.votes[i].fill(votes);
-  }
-  assumeFacing(FacingShares(pixels.facing), threads, memory, pixels);
-}
-
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifyMemory& memory, ClassifiedPixels& result) {
   checkArguments(forest, depth, mask, focal_px, config.stride);

@@ -5,16 +5,10 @@
 #include "depthmocap/image.h"
 #include "libtracker/classify/actor_depth.h"
 #include "libtracker/classify/forest.h"
+#include "libtracker/classify/part_classifier.h"
 #include "libtracker/core/classified_pixels.h"
 
 namespace depthmocap {
-
-struct ClassifyConfig {
-  int stride = 2;    // [px] (>= 1) classify every stride-th pixel in x and y
-  int threads = 1;   // (>= 1)
-  bool simd = true;  // use the processor's vector instructions where it has them; the result is the same
-  FacingShares facing_prior = {1, 1, 1, 1};  // (>= 0, not all 0) what is known of the facing before, at any scale
-};
 
 // Working memory of classify(), for reuse.
 struct ClassifyMemory {
@@ -36,10 +30,6 @@ void classify(const Forest& forest, const DepthImage& depth, const MaskImage& ma
 // Every pixel's distribution again, as if the facings had these probabilities (>= 0, not all 0); `memory` and `pixels`
 // as the last classify() left them.
 void assumeFacing(const FacingShares& facing, int threads, const ClassifyMemory& memory, ClassifiedPixels& pixels);
-// Every pixel's distribution again, as if the trees had seen exactly these parts (the size of the classified image; 0:
-// any part) whatever the facing: what a perfect classifier would say, for measurements. The probabilities of the
-// facings stay.
-void labelAs(const PartImage& parts, int threads, ClassifyMemory& memory, ClassifiedPixels& pixels);
 // classify() for a single image.
 void classify(const Forest& forest, const DepthImage& depth, const MaskImage& mask, double focal_px,
               const ClassifyConfig& config, ClassifiedPixels& result);

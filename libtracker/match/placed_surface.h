@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "depthmocap/parts.h"
+#include "depthmocap/surface_model.h"
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "libtracker/skeleton/surface_model.h"
 
 namespace depthmocap {
 

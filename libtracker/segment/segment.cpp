@@ -82,7 +82,7 @@ struct Segmenter::Impl {
   void rememberPeople(const Choice& choice);
   void noteCompany(const Choice& choice);
   double visibleShare();
-  void summarise(const DepthImage& depth, const CameraModel& camera, Segmentation& out) const;
+  void summarise(const DepthImage& depth, const CameraModel& camera, PersonRegion& out) const;
 };
 
 Segmenter::Segmenter(const SegmentConfig& config) : impl_(std::make_unique<Impl>()) {
@@ -190,7 +190,7 @@ void Segmenter::Impl::noteCompany(const Choice& choice) {
   }
 }
 
-void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& camera, Segmentation& out) const {
+void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& camera, PersonRegion& out) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int y = 0; y < depth.height; ++y) {
     for (int x = 0; x < depth.width; ++x) {
@@ -207,9 +207,10 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, cons
                         Segmentation& out) {
   DMC_CHECK(depth.width == camera.width && depth.height == camera.height && !depth.empty());
   Impl& s = *impl_;
-  out.pixel_count = 0;
-  out.touches_border = false;
-  out.centroid_camera.setZero();
+  PersonRegion& actor = out.actor();
+  actor.pixel_count = 0;
+  actor.touches_border = false;
+  actor.centroid_camera.setZero();
   out.floor_camera.reset();
 
   buildCoarseCloud(depth, camera, s.config.min_depth_m, s.config.max_depth_m, s.cloud);
@@ -223,8 +224,8 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, cons
   s.selected.assign(s.finder.components().size(), 0);
   if (choice.person != kNoComponent)
     s.joiner.join(s.cloud, s.finder, choice.person, cut_out, s.company_frames > 0, s.selected);
-  out.visible_share = s.visibleShare();
-  s.actor_plain = choice.sure && out.visible_share >= kPlain;
+  actor.visible_share = s.visibleShare();
+  s.actor_plain = choice.sure && actor.visible_share >= kPlain;
   s.rememberPeople(choice);
   s.noteCompany(choice);
 
@@ -233,8 +234,8 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, cons
   if (!cut_out) limits.floor = s.planes.floor;
   if (limits.floor) out.floor_camera = limits.floor->cast<double>();
   out.floor_area_m2 = limits.floor ? static_cast<double>(s.planes.floor_area_m2) : 0.0;
-  refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, out.mask);
-  s.summarise(depth, camera, out);
+  refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, actor.mask);
+  s.summarise(depth, camera, actor);
 }
 
 }  // namespace depthmocap

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
@@ -27,14 +28,23 @@ struct ExpectedActor {
   double unseen_s = 0;  // [s] (>= 0) since the actor was last seen; infinite: has not been seen, somebody near is meant
 };
 
-struct Segmentation {
-  MaskImage mask;       // 1 on the actor; empty actor = all 0
+// One person's part of the image.
+struct PersonRegion {
+  MaskImage mask;       // 1 on the person; nobody = all 0
   int pixel_count = 0;  // [px] in the mask
   bool touches_border = false;
   double visible_share = 1;  // (0, 1] of what is usually in view; below 1 where something nearer covers a part
   Eigen::Vector3d centroid_camera = Eigen::Vector3d::Zero();  // [m]
+};
+
+// The people of one image and the floor they stand on.
+struct Segmentation {
+  std::vector<PersonRegion> people{1};          // the actor first; never empty, a region of no pixels is nobody
   std::optional<Eigen::Vector4d> floor_camera;  // plane n.p + d = 0, |n| = 1, n away from the floor (up); if seen
   double floor_area_m2 = 0;                     // of it in view, when it was last looked for
+
+  [[nodiscard]] PersonRegion& actor() { return people.front(); }
+  [[nodiscard]] const PersonRegion& actor() const { return people.front(); }
 };
 
 // Finds the actor's pixels. A recording whose background is already removed is recognised (see looksCutOut) and keeps

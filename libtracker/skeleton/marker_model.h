@@ -6,9 +6,6 @@
 
 namespace depthmocap {
 
-// Where each part's marker sits on the skeleton: the paper's marker offsets v. Index = partIndex(part).
-using MarkerModel = std::array<BonePoint, kPartCount>;
-
 // Offsets for an uncalibrated body: shares of the bone lengths, measured once as the mean over rendered bodies.
 MarkerModel averageMarkerModel(const Skeleton& skeleton);
 

@@ -4,7 +4,7 @@
 
 namespace depthmocap {
 
-MarkerSet modelMarkers(const ActorModel& actor, const Pose& q, ForwardKinematics& fk) {
+MarkerSet modelMarkers(const Actor& actor, const Pose& q, ForwardKinematics& fk) {
   fk.update(actor.skeleton, q);
   MarkerSet markers;
   for (int i = 0; i < kPartCount; ++i)
@@ -13,7 +13,7 @@ MarkerSet modelMarkers(const ActorModel& actor, const Pose& q, ForwardKinematics
   return markers;
 }
 
-Pose placedAt(const ActorModel& actor, Pose q, const MarkerSet& seen, ForwardKinematics& fk) {
+Pose placedAt(const Actor& actor, Pose q, const MarkerSet& seen, ForwardKinematics& fk) {
   q.head<3>().setZero();
   q[kRootRy] = 0;
   const MarkerSet model = modelMarkers(actor, q, fk);

@@ -28,56 +28,42 @@ double trimmedExtent(std::vector<float>& values) {
 
 }  // namespace
 
-void DenseRefinement::observe(const ClassifiedPixels& pixels, const DepthImage& depth, const MaskImage& mask,
-                              const CameraModel& camera, const Eigen::Matrix3d& R_world_camera) {
-  free_space_.observe(depth, mask, camera, R_world_camera);
-  samples_.clear();
-  const std::size_t count = pixels.pixels.size();
-  const std::size_t wanted = std::min<std::size_t>(count, kMaxSurfaceMatches);
-  for (std::size_t i = 0; i < wanted; ++i) {
-    const auto& pixel = pixels.pixels[i * count / wanted];
-    SurfaceSample sample;
-    sample.p_world =
-        (R_world_camera * camera.unproject(pixel.x, pixel.y, static_cast<double>(pixel.depth_m))).cast<float>();
-    sample.probability = pixel.probability;
-    samples_.push_back(sample);
-  }
-  heights_.clear();
-  for (const auto& pixel : pixels.pixels) {
-    const auto depth_m = static_cast<double>(pixel.depth_m);
-    heights_.push_back(static_cast<float>(R_world_camera.row(1) * camera.unproject(pixel.x, pixel.y, depth_m)));
-  }
-  observed_extent_m_ = trimmedExtent(heights_);
+void DenseRefinement::look(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
+                           const Eigen::Matrix3d& R_world_camera) {
+  camera_ = camera;
+  R_world_camera_ = R_world_camera;
+  if (rounds_ > 0) free_space_.observe(depth, mask, camera, R_world_camera);
 }
 
-double DenseRefinement::extentRatio(const SurfaceModel& surface, const ActorModel& actor, const Pose& q) {
-  if (surface.stature_m <= 0 || observed_extent_m_ < kMinExtent_m) return 0;
-  const auto scale = static_cast<float>(statureOf(actor.skeleton.lengths) / surface.stature_m);
+double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q) {
+  heights_.clear();
+  for (const auto& pixel : pixels.pixels) {
+    const Eigen::Vector3d p_camera = camera_.unproject(pixel.x, pixel.y, static_cast<double>(pixel.depth_m));
+    heights_.push_back(static_cast<float>(R_world_camera_.row(1) * p_camera));
+  }
+  const double observed_extent_m = trimmedExtent(heights_);
+  if (observed_extent_m < kMinExtent_m) return 0;
+  const auto scale = static_cast<float>(actor.stature_m() / actor.surface->stature_m);
   fk_.update(actor.skeleton, q);
   float lowest = std::numeric_limits<float>::max();
   float highest = std::numeric_limits<float>::lowest();
-  for (const auto& part : surface.parts) {
+  for (const auto& part : actor.surface->parts) {
     for (const SurfaceModel::Point& point : part) {
       const double y = fk_.position({point.bone, (scale * point.p_bone).cast<double>()}).y();
       lowest = std::min(lowest, static_cast<float>(y));
       highest = std::max(highest, static_cast<float>(y));
     }
   }
-  return highest > lowest ? observed_extent_m_ / (kSeenShare * static_cast<double>(highest - lowest)) : 0;
+  return highest > lowest ? observed_extent_m / (kSeenShare * static_cast<double>(highest - lowest)) : 0;
 }
 
-void DenseRefinement::place(const SurfaceModel& surface, const ActorModel& actor, const Pose& q) {
-  fk_.update(actor.skeleton, q);
-  placed_.place(surface, statureOf(actor.skeleton.lengths) / surface.stature_m, fk_);
-}
-
-void DenseRefinement::refine(const SurfaceModel& surface, const ActorModel& actor, MapInput input, MapSolver& solver,
-                             Pose& q, MapSummary& summary) {
-  if (surface.stature_m <= 0) return;
+void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input,
+                             MapSolver& solver, Pose& q, MapSummary& summary) {
   int iterations = summary.iterations;
   for (int round = 0; round < rounds_; ++round) {
-    place(surface, actor, q);
-    matcher_.match(placed_, samples_, matches_);
+    fk_.update(actor.skeleton, q);
+    placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
+    matcher_.match(placed_, samples, matches_);
     free_space_.match(placed_, matches_);
     input.surface = &matches_;
     summary = solver.solve(input, q);

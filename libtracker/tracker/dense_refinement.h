@@ -1,14 +1,13 @@
 #pragma once
 #include <vector>
 
+#include "depthmocap/actor.h"
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
 #include "libtracker/core/classified_pixels.h"
 #include "libtracker/match/free_space_matcher.h"
 #include "libtracker/match/surface_matcher.h"
-#include "libtracker/skeleton/surface_model.h"
 #include "libtracker/solve/map_solver.h"
-#include "libtracker/tracker/actor_model.h"
 
 namespace depthmocap {
 
@@ -20,30 +19,27 @@ class DenseRefinement {
   DenseRefinement(const SurfaceMatchConfig& surface, const FreeSpaceConfig& free_space, int rounds)
       : matcher_(surface), free_space_(free_space), rounds_(rounds) {}
 
-  // Takes the frame: a few hundred of its classified pixels, spread evenly, and what is free of the actor. Depth and
-  // mask must outlive the calls for this frame.
-  void observe(const ClassifiedPixels& pixels, const DepthImage& depth, const MaskImage& mask,
-               const CameraModel& camera, const Eigen::Matrix3d& R_world_camera);
+  // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame.
+  void look(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
+            const Eigen::Matrix3d& R_world_camera);
   // q: a solved pose, then the refined one. `input` without its surface; `summary` is replaced where a round was done.
-  void refine(const SurfaceModel& surface, const ActorModel& actor, MapInput input, MapSolver& solver, Pose& q,
+  void refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input, MapSolver& solver, Pose& q,
               MapSummary& summary);
 
   // How much taller the measured person stands than the model at the solved pose: the ratio of their vertical extents.
   // 0 if it cannot be told (too little of the person in view). Needs the whole person in view.
-  [[nodiscard]] double extentRatio(const SurfaceModel& surface, const ActorModel& actor, const Pose& q);
+  [[nodiscard]] double extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q);
 
  private:
-  void place(const SurfaceModel& surface, const ActorModel& actor, const Pose& q);
-
   SurfaceMatcher matcher_;
   FreeSpaceMatcher free_space_;
   int rounds_;
-  std::vector<SurfaceSample> samples_;
   SurfaceMatches matches_;
   ForwardKinematics fk_;
   PlacedSurface placed_;
+  CameraModel camera_;
+  Eigen::Matrix3d R_world_camera_ = Eigen::Matrix3d::Identity();
   std::vector<float> heights_;  // [m] world y of every classified pixel
-  double observed_extent_m_ = 0;
 };
 
 }  // namespace depthmocap

@@ -22,7 +22,7 @@ void GlobalSearch::chooseStarts(const PoseDatabase& database) {
   }
 }
 
-const GlobalSearch::Result& GlobalSearch::find(const MarkerSet& markers_world, double scale, const ActorModel& actor,
+const GlobalSearch::Result& GlobalSearch::find(const MarkerSet& markers_world, double scale, const Actor& actor,
                                                const PoseDatabase& database, PoseSearch& search,
                                                LocalPriorBuilder& prior_builder, MapSolver& solver) {
   result_.found = false;

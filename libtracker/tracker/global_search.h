@@ -1,12 +1,12 @@
 #pragma once
 #include <vector>
 
+#include "depthmocap/actor.h"
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/prior/local_prior_builder.h"
 #include "libtracker/prior/prior_config.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/solve/map_solver.h"
-#include "libtracker/tracker/actor_model.h"
 
 namespace depthmocap {
 
@@ -22,9 +22,8 @@ class GlobalSearch {
   // `neighbours`: poses to ask the database for; `starts`: how many of them, spread out, to solve from.
   GlobalSearch(int neighbours, int starts) : neighbour_count_(neighbours), start_count_(starts) {}
 
-  const Result& find(const MarkerSet& markers_world, double scale, const ActorModel& actor,
-                     const PoseDatabase& database, PoseSearch& search, LocalPriorBuilder& prior_builder,
-                     MapSolver& solver);
+  const Result& find(const MarkerSet& markers_world, double scale, const Actor& actor, const PoseDatabase& database,
+                     PoseSearch& search, LocalPriorBuilder& prior_builder, MapSolver& solver);
 
   // The local model of the last find().
   [[nodiscard]] const LocalPrior& prior() const { return prior_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libtracker/actor/make_actor.h"
+
 namespace depthmocap {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr int kSlowest = 30;  // the newest frame never weighs less than 1 / kSl
 void SizeAdapter::rescale(double scale) {
   const double stature = statureOf(actor_.skeleton.lengths);
   const double bounded = std::clamp(stature * scale, kMinStature_m, kMaxStature_m) / stature;
-  actor_ = averageActor(actor_.skeleton.lengths.scaled(bounded));
+  actor_ = averageActor(actor_.skeleton.lengths.scaled(bounded), actor_.surface);
 }
 
 void SizeAdapter::observe(double scale, double dt_s) {

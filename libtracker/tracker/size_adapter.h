@@ -1,5 +1,5 @@
 #pragma once
-#include "libtracker/tracker/actor_model.h"
+#include "depthmocap/actor.h"
 
 namespace depthmocap {
 
@@ -8,10 +8,10 @@ namespace depthmocap {
 class SizeAdapter {
  public:
   // A calibrated actor is never adapted.
-  SizeAdapter(const ActorModel& actor, bool calibrated, double adapt_s)
+  SizeAdapter(const Actor& actor, bool calibrated, double adapt_s)
       : actor_(actor), remaining_s_(calibrated ? 0.0 : adapt_s) {}
 
-  [[nodiscard]] const ActorModel& actor() const { return actor_; }
+  [[nodiscard]] const Actor& actor() const { return actor_; }
   [[nodiscard]] bool adapting() const { return remaining_s_ > 0; }
   // `scale`: how much larger than the present skeleton one frame's markers are; `dt_s`: time that the frame stands for.
   void observe(double scale, double dt_s);
@@ -19,7 +19,7 @@ class SizeAdapter {
   void rescale(double scale);
 
  private:
-  ActorModel actor_;
+  Actor actor_;
   double remaining_s_;
   int observed_ = 0;
 };

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "depthmocap/error.h"
-#include "libtracker/classify/classify.h"
 
 namespace depthmocap {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-#include "libtracker/classify/classify.h"
+#include "libtracker/classify/part_classifier.h"
 #include "libtracker/markers/find_markers.h"
 #include "libtracker/match/free_space_matcher.h"
 #include "libtracker/match/surface_matcher.h"

@@ -39,22 +39,23 @@ void UprightWorld::take(const Eigen::Vector4d& found) {
   *floor_ /= floor_->head<3>().norm();
 }
 
-bool UprightWorld::observe(const Segmentation& segmentation) {
+std::optional<Eigen::Matrix3d> UprightWorld::observe(const Segmentation& segmentation) {
   const std::optional<Eigen::Vector4d>& found = segmentation.floor_camera;
   if (!found || segmentation.floor_area_m2 < kLargeEnough_m2) {
     floor_.reset();
     found_.reset();
-    return false;
+    return std::nullopt;
   }
-  if (found_ && *found_ == *found) return false;  // the room was not looked at again
+  if (found_ && *found_ == *found) return std::nullopt;  // the room was not looked at again
   found_ = found;
   take(*found);
   const bool firm = !from_floor_ || agreeing_ >= kFirmly;
   from_floor_ = true;
   const Eigen::Vector3d up = floor_->head<3>();
-  if (!firm || angleBetween(R_world_camera_.row(1).transpose(), up) < kTurned_rad) return false;
+  if (!firm || angleBetween(R_world_camera_.row(1).transpose(), up) < kTurned_rad) return std::nullopt;
+  const Eigen::Matrix3d R_camera_before = R_world_camera_.transpose();
   R_world_camera_ = worldWith(up);
-  return true;
+  return R_world_camera_ * R_camera_before;
 }
 
 std::optional<Eigen::Vector4d> UprightWorld::floor() const {

@@ -13,8 +13,9 @@ namespace depthmocap {
 // (uprightWorldFromCamera()). The world stays as it is until the floor says clearly that the camera stands otherwise.
 class UprightWorld {
  public:
-  // What was found of the floor in the next frame; true if the world is another one from this frame on.
-  bool observe(const Segmentation& segmentation);
+  // What was found of the floor in the next frame. Where the world is another one from this frame on, how it turned:
+  // p_new = R * p_before.
+  std::optional<Eigen::Matrix3d> observe(const Segmentation& segmentation);
 
   [[nodiscard]] const Eigen::Matrix3d& R_world_camera() const { return R_world_camera_; }
   // The floor in the world: n.p + d = 0, |n| = 1, n up; [m]. The mean of what was found since the camera last moved;

@@ -21,14 +21,17 @@
 #include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
 #include "depthmocap/error.h"
+#include "depthmocap/tracker.h"
 #include "depthmocap/world_frame.h"
+#include "libtracker/actor/make_actor.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/body/sample_surface.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
 #include "libtracker/tracker/alignment.h"
-#include "libtracker/tracker/tracker.h"
+#include "libtracker/tracker/measurement.h"
 #include "tests/accuracy/disturbance.h"
+#include "tests/support/known_labels.h"
 
 namespace depthmocap {
 namespace {
@@ -61,12 +64,6 @@ struct ExperimentOptions {
   Disturbance disturbance;
 };
 
-// What the tracker is given: an average body, a calibrated one or the one that was rendered.
-struct Body {
-  std::shared_ptr<const TrackerModels> models;
-  std::optional<ActorModel> actor;
-};
-
 BodyShape shapeFrom(const std::string& text) {
   char sex = 'm';
   BodyShape shape;
@@ -77,21 +74,16 @@ BodyShape shapeFrom(const std::string& text) {
   return shape;
 }
 
-ActorModel scaled(const ActorModel& actor, double factor) {
-  return factor == 1 ? actor : averageActor(actor.skeleton.lengths.scaled(factor));
-}
-
-Body bodyOf(const ExperimentOptions& o) {
-  Body body{loadTrackerModels(o.track), actorOf(o.track)};
+// The body of a calibration, or the one that was rendered; none: the tracker's average body.
+std::optional<Actor> bodyOf(const ExperimentOptions& o) {
+  std::optional<Actor> actor = actorOf(o.track);
   if (!o.true_body.empty()) {
-    const BodySurface surface = makeBuiltinBody(shapeFrom(o.true_body));
-    auto models = std::make_shared<TrackerModels>(*body.models);
-    models->surface = sampleSurface(surface, kSurfacePoints, 1);
-    body.models = models;
-    body.actor = averageActor(surface.skeleton.lengths);
+    const BodySurface body = makeBuiltinBody(shapeFrom(o.true_body));
+    actor = averageActor(body.skeleton.lengths,
+                         std::make_shared<const SurfaceModel>(sampleSurface(body, kSurfacePoints, 1)));
   }
-  if (body.actor) body.actor = scaled(*body.actor, o.actor_scale);
-  return body;
+  if (!actor || o.actor_scale == 1) return actor;
+  return averageActor(actor->skeleton.lengths.scaled(o.actor_scale), actor->surface);
 }
 
 TrackerConfig configOf(const ExperimentOptions& o) {
@@ -108,7 +100,7 @@ TrackerConfig configOf(const ExperimentOptions& o) {
 // What a rendered recording knows of its frames.
 class Truth {
  public:
-  Truth(const ExperimentOptions& o, const std::optional<ActorModel>& actor) : folder_(o.recording / "truth") {
+  Truth(const ExperimentOptions& o, const std::optional<Actor>& actor) : folder_(o.recording / "truth") {
     labels_wanted_ = o.true_labels;
     if (!o.true_markers) return;
     if (!actor) throw Error("needs --true-body", "--true-markers", "exact markers are those of the exact body");
@@ -118,12 +110,11 @@ class Truth {
     }
   }
 
-  KnownEvidence of(std::int64_t frame) {
-    KnownEvidence known;
-    if (labels_wanted_) known.labels = &labels(frame);
+  // For the next frame.
+  void give(std::int64_t frame, KnownLabels& classifier, Tracker& tracker) {
+    if (labels_wanted_) classifier.setLabels(labels(frame));
     const auto markers = markers_.find(frame);
-    if (markers != markers_.end()) known.markers_camera = &markers->second;
-    return known;
+    if (markers != markers_.end()) TrackerMeasurement::setMarkers(tracker, markers->second);
   }
 
  private:
@@ -146,9 +137,12 @@ class Truth {
 
 void experiment(const ExperimentOptions& o) {
   const std::unique_ptr<RecordingReader> reader = openRecording(o.recording);
-  const Body body = bodyOf(o);
-  Truth truth(o, body.actor);
-  Tracker tracker(body.models, reader->info().camera, configOf(o), body.actor);
+  const std::optional<Actor> body = bodyOf(o);
+  Truth truth(o, body);
+  Models models = loadModels(o.track);
+  const auto classifier = std::make_shared<KnownLabels>(models.classifier);
+  models.classifier = classifier;
+  Tracker tracker(models, reader->info().camera, configOf(o), body);
   TrackOutputs outputs(o.track, reader->info());
   LookAhead waiting(o.look_ahead_s);
   const auto take = [&] {
@@ -159,7 +153,8 @@ void experiment(const ExperimentOptions& o) {
   for (std::size_t i = 0; i < reader->frameCount(); ++i) {
     reader->read(i, frame);
     disturb(o.disturbance, frame);
-    const TrackedFrame& tracked = tracker.process(frame, truth.of(frame.frame));
+    truth.give(frame.frame, *classifier, tracker);
+    const TrackedFrame& tracked = tracker.process(frame);
     stats.addFrame(tracked);
     waiting.add(i, frame, tracked, tracker.actor());
     take();
@@ -167,7 +162,7 @@ void experiment(const ExperimentOptions& o) {
   waiting.finish();
   take();
   outputs.finish(tracker.actor());
-  if (!o.track.stats.empty()) stats.write(o.track.stats, 0, !body.actor);
+  if (!o.track.stats.empty()) stats.write(o.track.stats, 0, !body);
 }
 
 void addOptions(CLI::App& app, ExperimentOptions& o) {

@@ -16,11 +16,11 @@
 
 #include "apps/track/track_options.h"
 #include "apps/track/tracker_setup.h"
+#include "depthmocap/tracker.h"
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/prior/local_prior_builder.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/tracker/alignment.h"
-#include "libtracker/tracker/tracker.h"
 
 namespace depthmocap {
 namespace {
@@ -36,8 +36,8 @@ double msSince(Clock::time_point start) {
 }
 
 // What the tracker asks the database for in each frame of a recording.
-std::vector<PoseQuery> queriesOf(const std::filesystem::path& recording,
-                                 const std::shared_ptr<const TrackerModels>& models, const TrackerConfig& config) {
+std::vector<PoseQuery> queriesOf(const std::filesystem::path& recording, const Models& models,
+                                 const TrackerConfig& config) {
   const std::unique_ptr<RecordingReader> reader = openRecording(recording);
   Tracker tracker(models, reader->info().camera, config);
   std::vector<PoseQuery> queries;
@@ -111,24 +111,24 @@ json chosenModels(const PoseDatabase& database, const Answers& answers, const Pr
 }
 
 void measure(const std::filesystem::path& recording, const TrackOptions& options, const std::vector<int>& candidates) {
-  const std::shared_ptr<const TrackerModels> models = loadTrackerModels(options);
+  const Models models = loadModels(options);
   const TrackerConfig config = trackerConfig(options);
   const std::vector<PoseQuery> queries = queriesOf(recording, models, config);
   if (queries.empty()) throw std::runtime_error("nobody was tracked in " + recording.string());
-  const ActorModel actor = averageActor(averageBoneLengths(config.policy.assumed_stature_m));
-  PoseSearch reference(models->database, actor.skeleton, actor.markers, config.search);
+  const Actor actor = averageActor(config.policy.assumed_stature_m);
+  PoseSearch reference(*models.database, actor.skeleton, actor.markers, config.search);
   const Answers exact =
       answersOf(queries, [&](const PoseQuery& q, Neighbours& n) { reference.searchExhaustive(q, kNeighbours, n); });
-  json result{{"poses", models->database.size()}, {"queries", queries.size()}, {"exhaustive_ms", exact.ms}};
+  json result{{"poses", models.database->size()}, {"queries", queries.size()}, {"exhaustive_ms", exact.ms}};
   for (const int count : candidates) {
     PoseSearchConfig search_config = config.search;
     search_config.candidates = count;
-    PoseSearch search(models->database, actor.skeleton, actor.markers, search_config);
+    PoseSearch search(*models.database, actor.skeleton, actor.markers, search_config);
     const Answers found =
         answersOf(queries, [&](const PoseQuery& q, Neighbours& n) { search.search(q, kNeighbours, n); });
     result["search"].push_back(recall(found, exact, count));
     if (count == config.search.candidates)
-      result["chosen"] = chosenModels(models->database, found, paperConfig().prior);
+      result["chosen"] = chosenModels(*models.database, found, paperConfig().prior);
   }
   std::cout << result.dump(2) << '\n';
 }

@@ -6,15 +6,15 @@
 
 #include <benchmark/benchmark.h>
 
-#include "libtracker/body/builtin_body.h"
-#include "libtracker/body/sample_surface.h"
+#include "depthmocap/tracker.h"
 #include "libtracker/classify/classify.h"
 #include "libtracker/classify/forest.h"
+#include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/solve/map_solver.h"
-#include "libtracker/tracker/tracker.h"
+#include "libtracker/tracker/tracker_config.h"
 #include "tests/moving_body.h"
 
 namespace depthmocap {
@@ -22,9 +22,13 @@ namespace {
 
 const std::string kShare = std::string(DEPTHMOCAP_SHARE) + "/";
 
-const TrackerModels& models() {
-  static const TrackerModels loaded{loadForest(kShare + "general.forest"), loadPoseDatabase(kShare + "default.posedb"),
-                                    sampleSurface(makeBuiltinBody(BodyShape{}), 1500, 1)};
+const ForestClassifier& classifier() {
+  static const ForestClassifier loaded(loadForest(kShare + "general.forest"));
+  return loaded;
+}
+
+const Models& models() {
+  static const Models loaded = Models::load(kShare + "general.forest", kShare + "default.posedb");
   return loaded;
 }
 
@@ -59,7 +63,7 @@ void classifyOneFrame(benchmark::State& state, bool simd, int threads) {
   config.threads = threads;
   ClassifyMemory memory;
   ClassifiedPixels pixels;
-  const Forest& forest = models().forest;  // loaded before the clock runs
+  const Forest& forest = classifier().forest();  // loaded before the clock runs
   for (auto _ : state) classify(forest, frame.depth, mask, walk().camera.fx, config, memory, pixels);
   state.counters["pixels"] = static_cast<double>(pixels.pixels.size());
 }
@@ -71,16 +75,16 @@ void classifyByDefinition(benchmark::State& state) {
   const DepthFrame& frame = walk().frames.front();
   const MaskImage mask = maskOf(frame.depth);
   ClassifiedPixels pixels;
-  const Forest& forest = models().forest;
+  const Forest& forest = classifier().forest();
   for (auto _ : state) classifyReference(forest, frame.depth, mask, walk().camera.fx, {}, pixels);
 }
 BENCHMARK(classifyByDefinition)->Unit(benchmark::kMillisecond);
 
 void searchPoses(benchmark::State& state, bool exhaustive) {
   const MovingBody body;
-  PoseSearch search(models().database, body.skeleton, body.model, {});
+  PoseSearch search(*models().database, body.skeleton, body.model, {});
   PoseQuery query;
-  query.markers = body.markers(models().database.pose(models().database.poses.size() / 2));
+  query.markers = body.markers(models().database->pose(models().database->poses.size() / 2));
   std::vector<PoseNeighbour> neighbours;
   for (auto _ : state) {
     exhaustive ? search.searchExhaustive(query, 50, neighbours) : search.search(query, 50, neighbours);
@@ -107,13 +111,12 @@ BENCHMARK_CAPTURE(solvePose, general_solver, true)->Unit(benchmark::kMillisecond
 // The whole tracker, one iteration a frame; the paper's method beside ours.
 void trackFrame(benchmark::State& state, TrackerConfig config, int threads) {
   config.threads = threads;
-  const std::shared_ptr<const TrackerModels> shared(&models(), [](const TrackerModels*) {});
-  auto tracker = std::make_unique<Tracker>(shared, walk().camera, config);
+  auto tracker = std::make_unique<Tracker>(models(), walk().camera, config);
   std::size_t next = 0;
   for (auto _ : state) {
     if (next == walk().frames.size()) {
       state.PauseTiming();
-      tracker = std::make_unique<Tracker>(shared, walk().camera, config);
+      tracker = std::make_unique<Tracker>(models(), walk().camera, config);
       next = 0;
       state.ResumeTiming();
     }

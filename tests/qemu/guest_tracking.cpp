@@ -45,7 +45,7 @@ void trackLive(const std::string& device, const std::string& recording, const st
   const auto source = openV4l2Camera(device, options);
   TrackOptions defaults;
   defaults.threads = 1;
-  const auto models = loadTrackerModels(defaults);
+  const auto models = loadModels(defaults);
   std::puts("tracking: models loaded");
   Tracker live(models, source->info().camera, trackerConfig(defaults));
   Recorder recorder("/tmp/recorded", source->info(), true);

@@ -20,7 +20,7 @@ BodySurface adult(Sex sex, double stature_m, double weight_kg) {
 }
 
 // Ten frames with a little sway and new noise in each.
-CalibratedActor calibrated(const Stander& actor, SensorKind kind, const CalibratorConfig& config = {}) {
+Actor calibrated(const Stander& actor, SensorKind kind, const CalibratorConfig& config = {}) {
   const CameraModel camera = sensorCamera(kind);
   Calibrator calibrator(shippedModels(), camera, config);
   for (int i = 0; i < 10; ++i) {
@@ -34,19 +34,19 @@ CalibratedActor calibrated(const Stander& actor, SensorKind kind, const Calibrat
 }
 
 // Arms and legs: within 2.5 cm in the mean and 5 cm each; the stature within 2 cm.
-void expectNear(const CalibratedActor& actor, const BodySurface& truth) {
-  const LengthVector error = lengthVector(actor.model.skeleton.lengths) - lengthVector(truth.skeleton.lengths);
-  EXPECT_NEAR(actor.stature(), statureOf(truth.skeleton.lengths), 0.02);
+void expectNear(const Actor& actor, const BodySurface& truth) {
+  const LengthVector error = lengthVector(actor.skeleton.lengths) - lengthVector(truth.skeleton.lengths);
+  EXPECT_NEAR(actor.stature_m(), statureOf(truth.skeleton.lengths), 0.02);
   EXPECT_LT(error.head<4>().cwiseAbs().mean(), 0.025) << error.transpose();
   EXPECT_LT(error.head<4>().cwiseAbs().maxCoeff(), 0.05) << error.transpose();
 }
 
 TEST(Calibrator, MeasuresASmallWoman) {
   const BodySurface body = adult(Sex::Female, 1.52, 47);
-  const CalibratedActor actor = calibrated(standing(body, 0, 2.5), SensorKind::Kinect1);
+  const Actor actor = calibrated(standing(body, 0, 2.5), SensorKind::Kinect1);
   expectNear(actor, body);
-  EXPECT_EQ(actor.fit.tpose_frames, 10);
-  EXPECT_GT(actor.fit.confidence, 0.6);
+  EXPECT_EQ(actor.measured->fit.tpose_frames, 10);
+  EXPECT_GT(actor.measured->fit.confidence, 0.6);
 }
 
 TEST(Calibrator, MeasuresATallHeavyManWithTheOtherSensor) {
@@ -65,9 +65,9 @@ TEST(Calibrator, MeasuresABodyOfAnotherFamily) {
 TEST(Calibrator, ThickLimbsGetWiderRadii) {
   const auto thin = calibrated(standing(adult(Sex::Male, 1.75, 58), 0, 2.6), SensorKind::Kinect2);
   const auto heavy = calibrated(standing(adult(Sex::Male, 1.75, 110), 0, 2.6), SensorKind::Kinect2);
-  EXPECT_GT(heavy.upper_leg_radius_m, thin.upper_leg_radius_m + 0.005);
-  EXPECT_GT(heavy.model.radii_m[static_cast<std::size_t>(partIndex(Part::Torso))],
-            thin.model.radii_m[static_cast<std::size_t>(partIndex(Part::Torso))]);
+  EXPECT_GT(heavy.measured->upper_leg_radius_m, thin.measured->upper_leg_radius_m + 0.005);
+  EXPECT_GT(heavy.radii_m[static_cast<std::size_t>(partIndex(Part::Torso))],
+            thin.radii_m[static_cast<std::size_t>(partIndex(Part::Torso))]);
 }
 
 TEST(Calibrator, AGivenStatureFixesTheScaleOfAWrongCamera) {
@@ -81,9 +81,9 @@ TEST(Calibrator, AGivenStatureFixesTheScaleOfAWrongCamera) {
     for (float& depth : frame.depth.data) depth *= 1.05F;
     calibrator.add(frame);
   }
-  const CalibratedActor actor = calibrator.solve();
-  EXPECT_NEAR(actor.stature(), 1.80, 1e-6);
-  EXPECT_NEAR(actor.depth_scale, 1 / 1.05, 0.012);
+  const Actor actor = calibrator.solve();
+  EXPECT_NEAR(actor.stature_m(), 1.80, 1e-6);
+  EXPECT_NEAR(actor.measured->depth_scale, 1 / 1.05, 0.012);
   expectNear(actor, body);
 }
 
@@ -93,8 +93,8 @@ TEST(Calibrator, IsTheSameForAnyNumberOfThreads) {
   one.threads = 1;
   CalibratorConfig three;
   three.threads = 3;
-  const ShapeVector a = calibrated(actor, SensorKind::Kinect1, one).shape;
-  EXPECT_EQ(a, calibrated(actor, SensorKind::Kinect1, three).shape);
+  const ShapeVector a = calibrated(actor, SensorKind::Kinect1, one).measured->shape;
+  EXPECT_EQ(a, calibrated(actor, SensorKind::Kinect1, three).measured->shape);
 }
 
 TPoseVerdict verdictOn(const std::vector<Stander>& people) {

@@ -6,6 +6,7 @@
 #include "depthmocap/world_frame.h"
 #include "forest/render/sensor_model.h"
 #include "libtracker/body/pose_surface.h"
+#include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
 #include "libtracker/skeleton/skeleton.h"
 
@@ -64,8 +65,8 @@ inline std::shared_ptr<const CalibratorModels> shippedModels() {
   static const auto models = [] {
     const std::filesystem::path source = DEPTHMOCAP_SOURCE_DIR;
     auto loaded = std::make_shared<CalibratorModels>();
-    loaded->tpose = loadForest(source / "forest/models/tpose.forest");
-    loaded->general = loadForest(source / "forest/models/general.forest");
+    loaded->tpose = std::make_shared<const ForestClassifier>(loadForest(source / "forest/models/tpose.forest"));
+    loaded->general = std::make_shared<const ForestClassifier>(loadForest(source / "forest/models/general.forest"));
     loaded->space = loadShapeSpace(source / "calibration/models/shape_space.json");
     return loaded;
   }();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "depthmocap/world_frame.h"
+#include "libtracker/actor/make_actor.h"
 #include "libtracker/tracker/alignment.h"
 
 namespace depthmocap {
@@ -58,7 +59,7 @@ class LookAheadFrames : public testing::Test {
       EXPECT_NEAR(left[i].q[kLhumerusRz], frames_[i].q[kLhumerusRz], 1e-12) << i;
   }
 
-  ActorModel actor_;
+  Actor actor_;
   std::vector<TrackedFrame> frames_;
 };
 

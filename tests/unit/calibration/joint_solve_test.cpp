@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "calibration/pose_cost.h"
-#include "libtracker/body/builtin_body.h"
+#include "libtracker/body/make_template_surface.h"
 #include "libtracker/core/random.h"
+#include "libtracker/skeleton/typical_bone_lengths.h"
 #include "tests/gradient_check.h"
 
 namespace depthmocap {
@@ -64,7 +65,7 @@ PoseObservation observationOf(const BodyTemplate& body, const ShapeVector& shape
 }
 
 TEST(PoseCost, JacobianMatchesDifferences) {
-  const BodyTemplate body(Sex::Male, 60);
+  const BodyTemplate body(makeTemplateSurface(Sex::Male, 60));
   const ShapeVector shape = 1.05 * body.templateShape();
   PoseObservation observation = observationOf(body, shape, bentPose(1));
   for (int place = 0; place <= static_cast<int>(PartBoundary::Place::Waist); ++place) {
@@ -113,7 +114,7 @@ TEST(PoseCost, JacobianMatchesDifferences) {
 
 // From noise-free bent poses, lengths and girths come back although the start is a smaller, other body.
 TEST(SolveJointly, FindsTheBodyThatMadeTheCloud) {
-  const BodyTemplate body(Sex::Male, 350);
+  const BodyTemplate body(makeTemplateSurface(Sex::Male, 350));
   ShapeVector truth = 1.04 * body.templateShape();
   truth[1] *= 1.05;
   truth[3] *= 0.96;
@@ -130,7 +131,7 @@ TEST(SolveJointly, FindsTheBodyThatMadeTheCloud) {
 }
 
 TEST(SolveJointly, WithoutACloudOnlyMarkersAndTheShapeSpaceDecide) {
-  const BodyTemplate body(Sex::Male, 300);
+  const BodyTemplate body(makeTemplateSurface(Sex::Male, 300));
   const ShapeVector truth = 1.05 * body.templateShape();
   std::vector<PoseObservation> observations;
   for (int i = 0; i < 4; ++i) observations.push_back(observationOf(body, truth, bentPose(i)));

@@ -169,22 +169,6 @@ TEST(AssumeFacing, DecidesThePartsAgain) {
   for (const auto& pixel : result.pixels) EXPECT_EQ(mostProbablePart(pixel), pixel.x < 20 ? 0 : 2);
 }
 
-TEST(LabelAs, TheGivenPartsHoldForEveryFacing) {
-  ClassifiedPixels result;
-  ClassifyMemory memory;
-  classify(facingForest(), DepthImage(40, 10, 1.0F), MaskImage(40, 10, 1), kFocal_px, {.stride = 1}, memory, result);
-  PartImage parts(40, 10, 7);
-  parts.at(3, 5) = 0;
-  labelAs(parts, 2, memory, result);
-  FacingShares front{};
-  front[static_cast<std::size_t>(Facing::Front)] = 1.0F;
-  assumeFacing(front, 2, memory, result);
-  for (const auto& pixel : result.pixels) {
-    const bool unknown = pixel.x == 3 && pixel.y == 5;
-    EXPECT_FLOAT_EQ(pixel.probability[6], unknown ? 1.0F / kPartCount : 1.0F);
-  }
-}
-
 TEST(Classify, NobodyGivesNoPixels) {
   ClassifiedPixels result;
   classify(test::randomForest(1, 5, 1), DepthImage(32, 24, 1.0F), MaskImage(32, 24, 0), kFocal_px, {}, result);

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "depthmocap/image.h"
 #include "libtracker/classify/forest.h"
 #include "libtracker/core/random.h"
 

@@ -41,13 +41,13 @@ class Following {
     Masked masked;
     segmenter_.segment(depth, scene.camera, expected_ ? &*expected_ : nullptr, masked.segmentation);
     for (std::size_t i = 0; i < objects.data.size(); ++i) {
-      const bool in = masked.segmentation.mask.data[i] != 0;
+      const bool in = masked.segmentation.actor().mask.data[i] != 0;
       masked.actor_shown += objects.data[i] == kActor ? 1 : 0;
       masked.actor += in && objects.data[i] == kActor ? 1 : 0;
       masked.other += in && objects.data[i] == kOther ? 1 : 0;
     }
-    const bool seen = masked.segmentation.pixel_count > 0;
-    if (seen) expected_ = {masked.segmentation.centroid_camera, 0};
+    const bool seen = masked.segmentation.actor().pixel_count > 0;
+    if (seen) expected_ = {masked.segmentation.actor().centroid_camera, 0};
     if (expected_) expected_->unseen_s += kFrame_s;
     return masked;
   }
@@ -73,7 +73,7 @@ TEST_P(WalkingPast, TheMaskStaysOnTheActor) {
       EXPECT_GT(masked.actor, 0.85 * masked.actor_shown) << "at " << x;
     }
     if (std::abs(x) > 1.2) {
-      EXPECT_EQ(masked.segmentation.visible_share, 1) << "at " << x;
+      EXPECT_EQ(masked.segmentation.actor().visible_share, 1) << "at " << x;
     }
   }
   if (GetParam() < -0.5) {
@@ -100,7 +100,7 @@ TEST(Following, WhoIsHiddenIsWaitedForAndKnownAgain) {
   for (double x = 1.2; x > 0; x -= 0.05) following.next(kFeet, kFeet + Eigen::Vector3d(x, 0, -1.2));
   for (int i = 0; i < 30; ++i) {
     const Masked masked = following.next(std::nullopt, kFeet + Eigen::Vector3d(0, 0, -1.2));
-    EXPECT_EQ(masked.segmentation.pixel_count, 0) << "the other one is not taken";
+    EXPECT_EQ(masked.segmentation.actor().pixel_count, 0) << "the other one is not taken";
   }
   Masked back;
   for (double x = 0.2; x < 0.8; x += 0.05)
@@ -112,7 +112,7 @@ TEST(Following, WhoIsHiddenIsWaitedForAndKnownAgain) {
 TEST(Following, AfterTheActorIsForgottenWhoeverIsThereIsTheActor) {
   Following following;
   for (int i = 0; i < 5; ++i) following.next(kFeet, kFeet + Eigen::Vector3d(0.9, 0, 0.3));
-  EXPECT_EQ(following.next(std::nullopt, kFeet + Eigen::Vector3d(0.9, 0, 0.3)).segmentation.pixel_count, 0);
+  EXPECT_EQ(following.next(std::nullopt, kFeet + Eigen::Vector3d(0.9, 0, 0.3)).segmentation.actor().pixel_count, 0);
   following.forget();
   EXPECT_GT(following.next(std::nullopt, kFeet + Eigen::Vector3d(0.9, 0, 0.3)).other, 3000);
 }
@@ -133,8 +133,8 @@ TEST(Following, SaysHowMuchOfTheActorIsSeen) {
   Masked masked;
   for (double x = 1.2; x > 0.12; x -= 0.05) masked = following.next(kFeet, kFeet + Eigen::Vector3d(x, 0, -1.0));
   ASSERT_GT(masked.actor, 500);
-  EXPECT_LT(masked.segmentation.visible_share, 0.8);
-  EXPECT_GT(masked.segmentation.visible_share, 0.1);
+  EXPECT_LT(masked.segmentation.actor().visible_share, 0.8);
+  EXPECT_GT(masked.segmentation.actor().visible_share, 0.1);
 }
 
 }  // namespace

@@ -37,10 +37,10 @@ TEST(Segment, RemovedBackgroundKeepsEveryPixelOfThePerson) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.999);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.999);
   EXPECT_FALSE(result.floor_camera.has_value());
-  EXPECT_FALSE(result.touches_border);
-  EXPECT_LT((result.centroid_camera - Eigen::Vector3d(0.1, 0.1, 2.6)).norm(), 0.15);
+  EXPECT_FALSE(result.actor().touches_border);
+  EXPECT_LT((result.actor().centroid_camera - Eigen::Vector3d(0.1, 0.1, 2.6)).norm(), 0.15);
 }
 
 TEST(Segment, ABoardBeforeThePersonIsNotThePersonWhereTheBackgroundIsRemoved) {
@@ -54,7 +54,7 @@ TEST(Segment, ABoardBeforeThePersonIsNotThePersonWhereTheBackgroundIsRemoved) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.9);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.9);
 }
 
 TEST(Segment, SpecklesAreDroppedAndThePixelCountIsOfTheMask) {
@@ -66,10 +66,10 @@ TEST(Segment, SpecklesAreDroppedAndThePixelCountIsOfTheMask) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.999);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.999);
   int count = 0;
-  for (const auto value : result.mask.data) count += value;
-  EXPECT_EQ(count, result.pixel_count);
+  for (const auto value : result.actor().mask.data) count += value;
+  EXPECT_EQ(count, result.actor().pixel_count);
 }
 
 TEST(Segment, HandCutOffFromTheBodyBelongsToIt) {
@@ -81,7 +81,7 @@ TEST(Segment, HandCutOffFromTheBodyBelongsToIt) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.999);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.999);
 }
 
 TEST(Segment, LegBehindTheOtherBelongsToTheActorInARoom) {
@@ -97,7 +97,7 @@ TEST(Segment, LegBehindTheOtherBelongsToTheActorInARoom) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.95);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
 }
 
 TEST(Segment, NearerOfTwoPeopleIsTheActor) {
@@ -109,7 +109,7 @@ TEST(Segment, NearerOfTwoPeopleIsTheActor) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.99);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.99);
 }
 
 TEST(Segment, PredictionSelectsTheOtherPerson) {
@@ -122,7 +122,7 @@ TEST(Segment, PredictionSelectsTheOtherPerson) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, &expected, result);
-  EXPECT_GT(overlap(result.mask, objects, kOther), 0.99);
+  EXPECT_GT(overlap(result.actor().mask, objects, kOther), 0.99);
 }
 
 TEST(Segment, RoomIsRemovedAndTheFloorFound) {
@@ -134,7 +134,7 @@ TEST(Segment, RoomIsRemovedAndTheFloorFound) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.95);  // the soles lie within the floor's tolerance
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);  // the soles lie within the floor's tolerance
   ASSERT_TRUE(result.floor_camera.has_value());
   EXPECT_LT((result.floor_camera->head<3>() - Eigen::Vector3d(0, -1, 0)).norm(), 0.01);
   EXPECT_NEAR(result.floor_camera->w(), kCameraHeight, 0.01);
@@ -156,7 +156,7 @@ TEST(Segment, FloorOfATiltedCamera) {
   segmenter.segment(depth, scene.camera, nullptr, result);
   ASSERT_TRUE(result.floor_camera.has_value());
   EXPECT_LT((result.floor_camera->head<3>() - up).norm(), 0.01);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.93);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.93);
 }
 
 TEST(Segment, CupboardsAndTablesAreNotTheActor) {
@@ -170,36 +170,36 @@ TEST(Segment, CupboardsAndTablesAreNotTheActor) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.95);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
 }
 
 TEST(Segment, EmptyRoomHasNoActor) {
   TestScene scene;
   addRoom(scene);
-  EXPECT_EQ(segmentOnce(scene).pixel_count, 0);
+  EXPECT_EQ(segmentOnce(scene).actor().pixel_count, 0);
 }
 
 TEST(Segment, TableLegIsNoActor) {
   TestScene scene;
   addRoom(scene);
   scene.addPanel(kRoom, {-0.5, 0.5, 2.0}, 0.04, 0.5);
-  EXPECT_EQ(segmentOnce(scene).pixel_count, 0);
+  EXPECT_EQ(segmentOnce(scene).actor().pixel_count, 0);
 }
 
 TEST(Segment, UnmeasuredImageGivesAnEmptyMask) {
   const TestScene scene;
   const Segmentation result = segmentOnce(scene);
-  EXPECT_EQ(result.pixel_count, 0);
-  EXPECT_EQ(result.mask.width, 640);
-  EXPECT_EQ(result.centroid_camera, Eigen::Vector3d::Zero());
+  EXPECT_EQ(result.actor().pixel_count, 0);
+  EXPECT_EQ(result.actor().mask.width, 640);
+  EXPECT_EQ(result.actor().centroid_camera, Eigen::Vector3d::Zero());
 }
 
 TEST(Segment, ActorLeavingTheImageTouchesTheBorder) {
   TestScene scene;
   scene.addPerson(kActor, {0.0, 1.5, 1.3});
   const Segmentation result = segmentOnce(scene);
-  EXPECT_TRUE(result.touches_border);
-  EXPECT_GT(result.pixel_count, 10000);
+  EXPECT_TRUE(result.actor().touches_border);
+  EXPECT_GT(result.actor().pixel_count, 10000);
 }
 
 TEST(Segment, MovedCameraIsNoticed) {
@@ -225,7 +225,7 @@ TEST(Segment, SameFramesGiveTheSameMasks) {
   scene.addPerson(kActor, kFeet);
   const Segmentation first = segmentOnce(scene);
   const Segmentation second = segmentOnce(scene);
-  EXPECT_EQ(first.mask.data, second.mask.data);
+  EXPECT_EQ(first.actor().mask.data, second.actor().mask.data);
   EXPECT_EQ(*first.floor_camera, *second.floor_camera);
 }
 
@@ -242,7 +242,7 @@ TEST(Segment, OddImageSizesWork) {
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
   segmenter.segment(depth, scene.camera, nullptr, result);
-  EXPECT_GT(overlap(result.mask, objects, kActor), 0.995);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.995);
 }
 
 TEST(SegmentConfig, ErrorNamesFieldAndRule) {

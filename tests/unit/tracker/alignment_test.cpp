@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libtracker/actor/make_actor.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/joint_limits.h"
 
@@ -24,7 +25,7 @@ Pose somePose(Random& random) {
 }
 
 TEST(PlacedAt, FindsPlaceAndHeadingOfThePose) {
-  const ActorModel actor = averageActor(averageBoneLengths(1.75));
+  const Actor actor = averageActor(averageBoneLengths(1.75));
   ForwardKinematics fk;
   Random random(2);
   for (int i = 0; i < 50; ++i) {
@@ -38,7 +39,7 @@ TEST(PlacedAt, FindsPlaceAndHeadingOfThePose) {
 }
 
 TEST(PlacedAt, DoesNotReadMarkersThatWereNotSeen) {
-  const ActorModel actor = averageActor(averageBoneLengths(1.75));
+  const Actor actor = averageActor(averageBoneLengths(1.75));
   ForwardKinematics fk;
   Random random(3);
   const Pose truth = somePose(random);
@@ -51,7 +52,7 @@ TEST(PlacedAt, DoesNotReadMarkersThatWereNotSeen) {
 }
 
 TEST(PlacedAt, MovesNothingElseAndIsFiniteWithoutMarkers) {
-  const ActorModel actor = averageActor(averageBoneLengths(1.75));
+  const Actor actor = averageActor(averageBoneLengths(1.75));
   ForwardKinematics fk;
   Random random(4);
   const Pose q = somePose(random);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "libtracker/actor/make_actor.h"
+
 namespace depthmocap {
 namespace {
 
@@ -31,7 +33,7 @@ TEST(SizeAdapter, ConvergesToTheActorFromNoisyFramesAndThenStays) {
 
 TEST(SizeAdapter, RescalesMarkersAndRadiiWithTheSkeleton) {
   SizeAdapter size = uncalibrated(1.6, 1.0);
-  const ActorModel before = size.actor();
+  const Actor before = size.actor();
   size.rescale(1.1);
   EXPECT_NEAR(statureIn(size), 1.76, 1e-9);
   EXPECT_NEAR(size.actor().skeleton.lengths.upper_leg, 1.1 * before.skeleton.lengths.upper_leg, 1e-9);
@@ -52,7 +54,7 @@ TEST(SizeAdapter, OneWildFrameMovesTheSizeByAQuarterAtMost) {
   EXPECT_NEAR(statureIn(size), 1.6 * 1.25, 1e-9);
 }
 
-TEST(SizeAdapter, LeavesACalibratedActorAlone) {
+TEST(SizeAdapter, LeavesAActorAlone) {
   SizeAdapter size(averageActor(averageBoneLengths(1.9)), true, 3.0);
   EXPECT_FALSE(size.adapting());
   size.observe(0.9, kFrame_s);

@@ -31,7 +31,7 @@ double turnedBy(const UprightWorld& world) {
 
 TEST(UprightWorld, IsTheCamerasOwnWithoutAFloor) {
   UprightWorld world;
-  EXPECT_FALSE(world.observe(Segmentation{}));
+  EXPECT_FALSE(world.observe(Segmentation{}).has_value());
   EXPECT_EQ(world.R_world_camera(), uprightWorldFromCamera());
   EXPECT_FALSE(world.floor().has_value());
 }
@@ -39,7 +39,7 @@ TEST(UprightWorld, IsTheCamerasOwnWithoutAFloor) {
 TEST(UprightWorld, StandsUprightOverTheFloorOfATiltedCamera) {
   UprightWorld world;
   const Segmentation seen = floorOf(20, 5);
-  EXPECT_TRUE(world.observe(seen));
+  EXPECT_TRUE(world.observe(seen).has_value());
   EXPECT_LT((world.R_world_camera() * seen.floor_camera->head<3>() - Eigen::Vector3d::UnitY()).norm(), 1e-9);
   EXPECT_NEAR((world.R_world_camera() * Eigen::Vector3d::UnitZ()).x(), 0, 1e-9) << "the camera looks along -z";
   EXPECT_LT((world.R_world_camera() * Eigen::Vector3d::UnitZ()).z(), -0.9);
@@ -51,7 +51,7 @@ TEST(UprightWorld, StandsUprightOverTheFloorOfATiltedCamera) {
 
 TEST(UprightWorld, LeavesALevelCameraAsItIs) {
   UprightWorld world;
-  EXPECT_FALSE(world.observe(floorOf(0.5, 0.4)));
+  EXPECT_FALSE(world.observe(floorOf(0.5, 0.4)).has_value());
   EXPECT_EQ(world.R_world_camera(), uprightWorldFromCamera());
   EXPECT_TRUE(world.floor().has_value());
 }
@@ -61,7 +61,7 @@ TEST(UprightWorld, DoesNotWobbleWithTheFloorThatIsFound) {
   world.observe(floorOf(12));
   const Eigen::Matrix3d first = world.R_world_camera();
   for (int i = 0; i < 20; ++i)
-    EXPECT_FALSE(world.observe(floorOf(12 + 0.4 * std::sin(i), 0, 1.4 + 0.01 * std::cos(i))));
+    EXPECT_FALSE(world.observe(floorOf(12 + 0.4 * std::sin(i), 0, 1.4 + 0.01 * std::cos(i))).has_value());
   EXPECT_EQ(world.R_world_camera(), first);
   EXPECT_NEAR((*world.floor())[3], 1.4, 0.005) << "the mean of what was found";
 }
@@ -69,38 +69,38 @@ TEST(UprightWorld, DoesNotWobbleWithTheFloorThatIsFound) {
 TEST(UprightWorld, OneStrayFloorDoesNotTurnIt) {
   UprightWorld world;
   world.observe(floorOf(12));
-  EXPECT_FALSE(world.observe(floorOf(20)));
-  EXPECT_FALSE(world.observe(floorOf(12)));
-  EXPECT_FALSE(world.observe(floorOf(20)));
+  EXPECT_FALSE(world.observe(floorOf(20)).has_value());
+  EXPECT_FALSE(world.observe(floorOf(12)).has_value());
+  EXPECT_FALSE(world.observe(floorOf(20)).has_value());
   EXPECT_NEAR(turnedBy(world), 12, 1e-6);
 }
 
 TEST(UprightWorld, FollowsACameraThatWasTurned) {
   UprightWorld world;
   world.observe(floorOf(12));
-  EXPECT_FALSE(world.observe(floorOf(20)));
-  EXPECT_TRUE(world.observe(floorOf(20.1)));
+  EXPECT_FALSE(world.observe(floorOf(20)).has_value());
+  EXPECT_TRUE(world.observe(floorOf(20.1)).has_value());
   EXPECT_NEAR(turnedBy(world), 20, 0.1);
 }
 
 TEST(UprightWorld, TheSamePlaneInTheNextFrameIsNoSecondWitness) {
   UprightWorld world;
   world.observe(floorOf(12));
-  for (int i = 0; i < 30; ++i) EXPECT_FALSE(world.observe(floorOf(20)));
+  for (int i = 0; i < 30; ++i) EXPECT_FALSE(world.observe(floorOf(20)).has_value());
 }
 
 TEST(UprightWorld, DoesNotTrustALap) {
   UprightWorld world;
   Segmentation seen = floorOf(20);
   seen.floor_area_m2 = 0.3;
-  EXPECT_FALSE(world.observe(seen));
+  EXPECT_FALSE(world.observe(seen).has_value());
   EXPECT_FALSE(world.floor().has_value());
 }
 
 TEST(UprightWorld, HasNoFloorWhereThePictureHasNone) {
   UprightWorld world;
   world.observe(floorOf(20));
-  EXPECT_FALSE(world.observe(Segmentation{}));
+  EXPECT_FALSE(world.observe(Segmentation{}).has_value());
   EXPECT_FALSE(world.floor().has_value());
   EXPECT_NEAR(turnedBy(world), 20, 1e-6) << "up stays where it was";
 }

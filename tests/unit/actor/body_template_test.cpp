@@ -1,8 +1,9 @@
-#include "calibration/body_template.h"
+#include "libtracker/actor/body_template.h"
 
 #include <gtest/gtest.h>
 
-#include "libtracker/body/builtin_body.h"
+#include "libtracker/body/make_template_surface.h"
+#include "libtracker/skeleton/typical_bone_lengths.h"
 
 namespace depthmocap {
 namespace {
@@ -15,7 +16,7 @@ ShapeVector otherShape() {
 }
 
 TEST(BodyTemplate, ItsOwnShapeLeavesItAsItIs) {
-  const BodyTemplate body(Sex::Male, 300);
+  const BodyTemplate body(makeTemplateSurface(Sex::Male, 300));
   for (const auto& point : body.points()) {
     EXPECT_TRUE(body.place(point, body.templateShape()).isApprox(point.p0, 1e-9));
     EXPECT_TRUE(body.normal(point, body.templateShape()).isApprox(point.n0, 1e-6));
@@ -23,14 +24,14 @@ TEST(BodyTemplate, ItsOwnShapeLeavesItAsItIs) {
 }
 
 TEST(BodyTemplate, ScaledBodyKeepsItsForm) {
-  const BodyTemplate body(Sex::Female, 300);
+  const BodyTemplate body(makeTemplateSurface(Sex::Female, 300));
   const ShapeVector twice = 2.0 * body.templateShape();
   for (const auto& point : body.points()) EXPECT_TRUE(body.place(point, twice).isApprox(2.0 * point.p0, 1e-9));
-  EXPECT_NEAR(body.surface(twice).stature_m, 2.0 * templateStature(Sex::Female), 1e-9);
+  EXPECT_NEAR(body.surface(twice).stature_m, 2.0 * statureOf(boneLengths(body.templateShape())), 1e-9);
 }
 
 TEST(BodyTemplate, PlaceIsLinearInTheShape) {
-  const BodyTemplate body(Sex::Male, 300);
+  const BodyTemplate body(makeTemplateSurface(Sex::Male, 300));
   const ShapeVector shape = otherShape();
   for (const auto& point : body.points()) {
     EXPECT_LT((body.placeJacobian(point) * shape - body.place(point, shape)).norm(), 1e-12);
@@ -38,7 +39,7 @@ TEST(BodyTemplate, PlaceIsLinearInTheShape) {
 }
 
 TEST(BodyTemplate, EndsLieAtCrownFingertipsAndSoles) {
-  const BodyTemplate body(Sex::Male, 300);
+  const BodyTemplate body(makeTemplateSurface(Sex::Male, 300));
   const Skeleton skeleton = makeSkeleton(boneLengths(body.templateShape()));
   ForwardKinematics fk;
   fk.update(skeleton, Pose::Zero());
@@ -46,13 +47,13 @@ TEST(BodyTemplate, EndsLieAtCrownFingertipsAndSoles) {
     return fk.position({point.bone, body.place(point, body.templateShape())});
   };
   const auto& ends = body.ends();
-  EXPECT_NEAR(world(ends.crown).y() - world(ends.left_sole).y(), templateStature(Sex::Male), 1e-6);
+  EXPECT_NEAR(world(ends.crown).y() - world(ends.left_sole).y(), statureOf(boneLengths(body.templateShape())), 1e-6);
   EXPECT_NEAR(world(ends.left_tip).x(), -world(ends.right_tip).x(), 0.01);
-  EXPECT_GT(world(ends.left_tip).x(), 0.45 * templateStature(Sex::Male));
+  EXPECT_GT(world(ends.left_tip).x(), 0.45 * statureOf(boneLengths(body.templateShape())));
 }
 
 TEST(ShapeKinematics, JacobianMatchesDifferences) {
-  const BodyTemplate body(Sex::Male, 120);
+  const BodyTemplate body(makeTemplateSurface(Sex::Male, 120));
   const ShapeVector shape = otherShape();
   Pose q = Pose::Zero();
   for (int i = 0; i < kDofCount; ++i) q[i] = 0.1 * ((i * 7) % 5 - 2);

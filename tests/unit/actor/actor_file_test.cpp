@@ -1,47 +1,47 @@
-#include "calibration/calibrated_actor.h"
-
 #include <gtest/gtest.h>
 
-#include "libtracker/body/builtin_body.h"
+#include "depthmocap/actor.h"
+#include "libtracker/actor/make_actor.h"
 #include "libtracker/core/random.h"
+#include "libtracker/skeleton/marker_model.h"
+#include "libtracker/skeleton/typical_bone_lengths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace depthmocap {
 namespace {
 
-CalibratedActor someActor() {
-  const BodyTemplate body(Sex::Female, 200);
-  CalibratedActor actor;
-  actor.sex = Sex::Female;
-  actor.shape = shapeVector(typicalBoneLengths(Sex::Female, 1.68), 1.1);
-  actor.shape[kBoneLengthCount + static_cast<int>(Girth::TorsoDepth)] = 1.4;
-  actor.model = actorOfShape(body, actor.shape);
-  actor.model.markers[0].p_bone.z() += 0.01;
-  actor.upper_arm_radius_m = 0.045;
-  actor.depth_scale = 1.05;
-  actor.camera = "kinect1";
-  actor.fit = {10, 4, 0.004, 0.02, 0.9};
+Actor someActor() {
+  ActorMeasurement measured;
+  measured.sex = Sex::Female;
+  measured.shape = shapeVector(typicalBoneLengths(Sex::Female, 1.68), 1.1);
+  measured.shape[kBoneLengthCount + static_cast<int>(Girth::TorsoDepth)] = 1.4;
+  measured.upper_arm_radius_m = 0.045;
+  measured.depth_scale = 1.05;
+  measured.camera = "kinect1";
+  measured.fit = {10, 4, 0.004, 0.02, 0.9};
+  Actor actor = measuredActor(measured);
+  actor.markers[0].p_bone.z() += 0.01;
   return actor;
 }
 
 TEST(ActorFile, ReadsBackWhatWasWritten) {
   const TemporaryFolder folder;
-  const CalibratedActor written = someActor();
+  const Actor written = someActor();
   writeActorFile(folder / "a.json", written);
-  const CalibratedActor read = readActorFile(folder / "a.json");
-  EXPECT_TRUE(read.shape.isApprox(written.shape, 1e-3));
-  EXPECT_EQ(read.sex, written.sex);
-  EXPECT_NEAR(read.stature(), written.stature(), 1e-3);
+  const Actor read = readActorFile(folder / "a.json");
+  EXPECT_TRUE(read.measured->shape.isApprox(written.measured->shape, 1e-3));
+  EXPECT_EQ(read.measured->sex, written.measured->sex);
+  EXPECT_NEAR(read.stature_m(), written.stature_m(), 1e-3);
   for (std::size_t i = 0; i < kPartCount; ++i) {
-    EXPECT_EQ(read.model.markers[i].bone, written.model.markers[i].bone);
-    EXPECT_LT((read.model.markers[i].p_bone - written.model.markers[i].p_bone).norm(), 2e-4);
-    EXPECT_NEAR(read.model.radii_m[i], written.model.radii_m[i], 1e-4);
+    EXPECT_EQ(read.markers[i].bone, written.markers[i].bone);
+    EXPECT_LT((read.markers[i].p_bone - written.markers[i].p_bone).norm(), 2e-4);
+    EXPECT_NEAR(read.radii_m[i], written.radii_m[i], 1e-4);
   }
-  EXPECT_NEAR(read.upper_arm_radius_m, 0.045, 1e-4);
-  EXPECT_NEAR(read.depth_scale, 1.05, 1e-4);
-  EXPECT_EQ(read.camera, "kinect1");
-  EXPECT_EQ(read.fit.tpose_frames, 10);
-  EXPECT_NEAR(read.fit.confidence, 0.9, 1e-4);
+  EXPECT_NEAR(read.measured->upper_arm_radius_m, 0.045, 1e-4);
+  EXPECT_NEAR(read.measured->depth_scale, 1.05, 1e-4);
+  EXPECT_EQ(read.measured->camera, "kinect1");
+  EXPECT_EQ(read.measured->fit.tpose_frames, 10);
+  EXPECT_NEAR(read.measured->fit.confidence, 0.9, 1e-4);
 }
 
 TEST(ActorFile, WritingTwiceGivesTheSameBytes) {
@@ -52,18 +52,18 @@ TEST(ActorFile, WritingTwiceGivesTheSameBytes) {
 }
 
 TEST(ActorFile, NineLengthsAreEnough) {
-  const CalibratedActor actor = readActorFile(testData("actors/lengths_only.json"));
-  EXPECT_NEAR(actor.shape[0], 0.29, 1e-9);
-  EXPECT_NEAR(actor.model.skeleton.lengths.spine, 0.18, 1e-9);  // the average body's
-  const MarkerModel average = averageMarkerModel(actor.model.skeleton);
-  EXPECT_TRUE(actor.model.markers[3].p_bone.isApprox(average[3].p_bone));
-  EXPECT_EQ(actor.depth_scale, 1.0);
+  const Actor actor = readActorFile(testData("actors/lengths_only.json"));
+  EXPECT_NEAR(actor.measured->shape[0], 0.29, 1e-9);
+  EXPECT_NEAR(actor.skeleton.lengths.spine, 0.18, 1e-9);  // the average body's
+  const MarkerModel average = averageMarkerModel(actor.skeleton);
+  EXPECT_TRUE(actor.markers[3].p_bone.isApprox(average[3].p_bone));
+  EXPECT_EQ(actor.measured->depth_scale, 1.0);
 }
 
 TEST(ActorFile, ReadsTheGoldenFile) {
-  const CalibratedActor actor = readActorFile(testData("actors/good.json"));
-  EXPECT_NEAR(actor.stature(), 1.705, 0.001);
-  EXPECT_EQ(actor.sex, Sex::Female);
+  const Actor actor = readActorFile(testData("actors/good.json"));
+  EXPECT_NEAR(actor.stature_m(), 1.705, 0.001);
+  EXPECT_EQ(actor.measured->sex, Sex::Female);
 }
 
 struct Damage {
@@ -114,11 +114,11 @@ TEST(ActorFile, SurvivesRandomDamage) {
     if (random.below(8) == 0) bytes.resize(random.below(static_cast<std::uint32_t>(bytes.size())));
     writeBytes(folder / "a.json", bytes);
     try {
-      const CalibratedActor actor = readActorFile(folder / "a.json");
+      const Actor actor = readActorFile(folder / "a.json");
       ++accepted;
-      EXPECT_TRUE(actor.shape.allFinite());
-      EXPECT_GT(actor.stature(), 0.4);
-      EXPECT_LT(actor.stature(), 3.0);
+      EXPECT_TRUE(actor.measured->shape.allFinite());
+      EXPECT_GT(actor.stature_m(), 0.4);
+      EXPECT_LT(actor.stature_m(), 3.0);
     } catch (const std::runtime_error&) {
     }
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "depthmocap/parts.h"
-#include "libtracker/skeleton/skeleton.h"
+#include "depthmocap/skeleton.h"
 
 namespace depthmocap {
 

@@ -1,16 +1,9 @@
-#include "calibration/body_template.h"
-
-#include <algorithm>
-
-#include "libtracker/body/builtin_body.h"
-#include "libtracker/body/sample_surface.h"
+#include "libtracker/actor/body_template.h"
 
 namespace depthmocap {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr std::uint64_t kSurfaceSeed = 1;
 
 // The lengths that stretch the template; girths follow after them.
 enum Ratio : int {
@@ -25,14 +18,6 @@ enum Ratio : int {
   kNeckToHead,
   kFirstGirth,
 };
-
-BodyShape averageBody(Sex sex) {
-  BodyShape shape;
-  shape.sex = sex;
-  shape.stature_m = templateStature(sex);
-  shape.weight_kg = 23.0 * shape.stature_m * shape.stature_m;
-  return shape;
-}
 
 std::uint8_t girth(Girth g) {
   return static_cast<std::uint8_t>(kFirstGirth + static_cast<int>(g));
@@ -100,10 +85,6 @@ std::array<std::uint8_t, 3> stretchOf(Bone bone, Part part) {
 
 }  // namespace
 
-double templateStature(Sex sex) {
-  return sex == Sex::Male ? 1.75 : 1.62;
-}
-
 ShapeVector shapeVector(const BoneLengths& lengths, double girth) {
   ShapeVector shape = ShapeVector::Constant(girth);
   shape.head<kBoneLengthCount>() = lengthVector(lengths);
@@ -114,17 +95,24 @@ BoneLengths boneLengths(const ShapeVector& shape) {
   return boneLengths(LengthVector(shape.head<kBoneLengthCount>()));
 }
 
-BodyTemplate::BodyTemplate(Sex sex, int points) {
-  const BodySurface body = makeBuiltinBody(averageBody(sex));
-  shape_ = shapeVector(body.skeleton.lengths, 1.0);
+BodyTemplate::BodyTemplate(const TemplateSurface& body) : shape_(shapeVector(body.lengths, 1.0)) {
   defineRatios();
-  const SurfaceModel sampled = sampleSurface(body, points, kSurfaceSeed);
   for (int part = 0; part < kPartCount; ++part) {
-    for (const SurfaceModel::Point& point : sampled.parts[static_cast<std::size_t>(part)]) {
+    for (const SurfaceModel::Point& point : body.surface.parts[static_cast<std::size_t>(part)]) {
       points_.push_back(makePoint(point.bone, partAt(part), point.p_bone.cast<double>(), point.n_bone.cast<double>()));
     }
   }
-  findEnds(body);
+  const auto end = [&](std::size_t i) {
+    const TemplateSurface::End& given = body.ends[i];
+    return makePoint(given.bone, given.part, given.p, given.n);
+  };
+  ends_ = {end(0), end(1), end(2), end(3), end(4)};
+}
+
+const BodyTemplate& BodyTemplate::ofSex(Sex sex) {
+  static const BodyTemplate man(shippedBodies().man);
+  static const BodyTemplate woman(shippedBodies().woman);
+  return sex == Sex::Male ? man : woman;
 }
 
 BodyTemplate::Point BodyTemplate::makePoint(Bone bone, Part part, const Vector3d& p, const Vector3d& n) const {
@@ -147,29 +135,6 @@ void BodyTemplate::defineRatios() {
   ratios_(kUpperTorso, 9) = -1.0 / (l.torso - l.spine);
   set(kNeckToHead, 8, l.neck_to_head);
   for (int g = 0; g < kGirthCount; ++g) ratios_(kFirstGirth + g, kBoneLengthCount + g) = 1.0;
-}
-
-// The outermost vertices of head, hands and feet.
-void BodyTemplate::findEnds(const BodySurface& body) {
-  ForwardKinematics rest;
-  rest.update(body.skeleton, Pose::Zero());
-  const auto outermost = [&](Bone bone, Part part, const Eigen::Vector3f& direction) {
-    const auto reach = [&](const Eigen::Vector3f& v) { return direction.dot(v); };
-    const auto best = std::max_element(body.vertices.begin(), body.vertices.end(),
-                                       [&](const auto& a, const auto& b) { return reach(a) < reach(b); });
-    return makePoint(bone, part, best->cast<double>() - rest.origin(bone), direction.cast<double>());
-  };
-  ends_.crown = outermost(Bone::Head, Part::Head, {0, 1, 0});
-  ends_.left_tip = outermost(Bone::LeftRadius, Part::LeftLowerArm, {1, 0, 0});
-  ends_.right_tip = outermost(Bone::RightRadius, Part::RightLowerArm, {-1, 0, 0});
-  // The sole lies below the toes, where a camera sees the foot end.
-  const auto sole = [&](Bone bone, Part part, double side) {
-    const double floor_y = -statureOf(body.skeleton.lengths) + rest.origin(Bone::Head).y() + ends_.crown.p0.y();
-    const Vector3d toe = rest.position({bone, side > 0 ? body.skeleton.left_toe : body.skeleton.right_toe});
-    return makePoint(bone, part, Vector3d(toe.x(), floor_y, toe.z()) - rest.origin(bone), -Vector3d::UnitY());
-  };
-  ends_.left_sole = sole(Bone::LeftFoot, Part::LeftLowerLeg, 1.0);
-  ends_.right_sole = sole(Bone::RightFoot, Part::RightLowerLeg, -1.0);
 }
 
 double BodyTemplate::girthOf(double stature_m) const {

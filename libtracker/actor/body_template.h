@@ -1,47 +1,22 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <string_view>
 #include <vector>
 
-#include "calibration/shape_space.h"
-#include "libtracker/body/body_surface.h"
+#include "depthmocap/body_shape.h"
+#include "depthmocap/surface_model.h"
+#include "libtracker/actor/template_surface.h"
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "libtracker/skeleton/surface_model.h"
+#include "libtracker/skeleton/length_vector.h"
 
 namespace depthmocap {
 
-// Girths of a body, left and right equal, as factors of the template's; trunk and hips have a width and a depth.
-enum class Girth : int {
-  Head,
-  Neck,
-  Shoulder,
-  UpperArm,
-  LowerArm,
-  TorsoWidth,
-  TorsoDepth,
-  WaistWidth,
-  WaistDepth,
-  UpperLeg,
-  LowerLeg,
-};
-inline constexpr int kGirthCount = 11;
-inline constexpr std::array<std::string_view, kGirthCount> kGirthNames = {
-    "head",        "neck",        "shoulder",    "upper_arm", "lower_arm", "torso_width",
-    "torso_depth", "waist_width", "waist_depth", "upper_leg", "lower_leg"};
-
-// What shapes a body: its bone lengths s [m], then its girths.
-inline constexpr int kShapeCount = kBoneLengthCount + kGirthCount;
-using ShapeVector = Eigen::Matrix<double, kShapeCount, 1>;
 ShapeVector shapeVector(const BoneLengths& lengths, double girth);
 BoneLengths boneLengths(const ShapeVector& shape);
 
 using ShapeJacobian = Eigen::Matrix<double, 3, kShapeCount>;
 
-// Stature [m] of the template of each sex.
-double templateStature(Sex sex);
-
-// The built-in body as a surface that bone lengths and girths stretch: every point is rigid with a bone, and each of
+// A sampled body as a surface that bone lengths and girths stretch: every point is rigid with a bone, and each of
 // its three coordinates in the bone's frame is proportional to a ratio that is linear in the shape (the length of the
 // bone along it, a girth across it).
 class BodyTemplate {
@@ -58,8 +33,9 @@ class BodyTemplate {
     Point crown, left_tip, right_tip, left_sole, right_sole;
   };
 
-  // About `points` points of the built-in body of this sex, the same for the same arguments.
-  BodyTemplate(Sex sex, int points);
+  explicit BodyTemplate(const TemplateSurface& body);
+  // The man or the woman that comes with the library.
+  static const BodyTemplate& ofSex(Sex sex);
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] const Ends& ends() const { return ends_; }
@@ -79,7 +55,6 @@ class BodyTemplate {
   static constexpr int kRatioCount = 9 + kGirthCount;
   [[nodiscard]] Point makePoint(Bone bone, Part part, const Eigen::Vector3d& p, const Eigen::Vector3d& n) const;
   void defineRatios();
-  void findEnds(const BodySurface& body);
 
   ShapeVector shape_;
   Eigen::Matrix<double, kRatioCount, kShapeCount> ratios_;

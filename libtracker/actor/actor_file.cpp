@@ -1,11 +1,11 @@
-#include "calibration/calibrated_actor.h"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 
+#include "depthmocap/actor.h"
 #include "depthmocap/error.h"
+#include "libtracker/actor/make_actor.h"
 #include "libtracker/core/json_file.h"
 
 namespace depthmocap {
@@ -20,30 +20,6 @@ constexpr double kLeastGirth = 0.3, kMostGirth = 3.0;
 constexpr double kLargestOffset_m = 0.5;
 constexpr double kStatureMismatch = 0.05;
 constexpr int kRequiredLengths = 9;  // the first ones, as the contract names them
-
-// Which girth goes with each part's radius.
-Girth girthOfPart(Part part) {
-  switch (mirrored(part) >= part ? part : mirrored(part)) {
-    case Part::Head:
-      return Girth::Head;
-    case Part::Neck:
-      return Girth::Neck;
-    case Part::LeftShoulder:
-      return Girth::Shoulder;
-    case Part::LeftUpperArm:
-      return Girth::UpperArm;
-    case Part::LeftLowerArm:
-      return Girth::LowerArm;
-    case Part::LeftWaist:
-      return Girth::WaistDepth;
-    case Part::LeftUpperLeg:
-      return Girth::UpperLeg;
-    case Part::LeftLowerLeg:
-      return Girth::LowerLeg;
-    default:
-      return Girth::TorsoDepth;
-  }
-}
 
 std::string text(std::string_view view) {
   return std::string(view);
@@ -84,13 +60,13 @@ BoneLengths readLengths(const json& file, const std::string& where) {
   return lengths;
 }
 
-void readGirths(const json& file, const std::string& where, CalibratedActor& actor) {
+void readGirths(const json& file, const std::string& where, ActorMeasurement& measured) {
   const json* given = optionalObject(file, "girths", where);
   if (given == nullptr) return;
   for (int g = 0; g < kGirthCount; ++g) {
     const std::string name = text(kGirthNames[static_cast<std::size_t>(g)]);
     if (given->contains(name)) {
-      actor.shape[kBoneLengthCount + g] = bounded(*given, name, kLeastGirth, kMostGirth, where);
+      measured.shape[kBoneLengthCount + g] = bounded(*given, name, kLeastGirth, kMostGirth, where);
     }
   }
 }
@@ -109,7 +85,7 @@ Bone boneNamed(const std::string& name, const std::string& where) {
   throw Error("there is no bone \"" + name + "\"", where);
 }
 
-void readMarkers(const json& file, const std::string& where, ActorModel& model) {
+void readMarkers(const json& file, const std::string& where, Actor& model) {
   const json* given = optionalObject(file, "markers", where);
   if (given == nullptr) return;
   for (const auto& [name, marker] : given->items()) {
@@ -125,18 +101,7 @@ void readMarkers(const json& file, const std::string& where, ActorModel& model) 
   }
 }
 
-struct RadiusField {
-  const char* name;
-  double CalibratedActor::*field;
-};
-constexpr RadiusField kRadii[] = {{"upper_arm", &CalibratedActor::upper_arm_radius_m},
-                                  {"lower_arm", &CalibratedActor::lower_arm_radius_m},
-                                  {"upper_leg", &CalibratedActor::upper_leg_radius_m},
-                                  {"lower_leg", &CalibratedActor::lower_leg_radius_m},
-                                  {"torso_half_width", &CalibratedActor::torso_half_width_m},
-                                  {"torso_half_depth", &CalibratedActor::torso_half_depth_m}};
-
-void readFit(const json& file, const std::string& where, CalibratedActor::Fit& fit) {
+void readFit(const json& file, const std::string& where, ActorMeasurement::Fit& fit) {
   const json* given = optionalObject(file, "fit", where);
   if (given == nullptr) return;
   fit.tpose_frames = jsonInteger(*given, "tpose_frames", where);
@@ -160,7 +125,7 @@ double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
 }
 
-json markersToJson(const ActorModel& model) {
+json markersToJson(const Actor& model) {
   json markers;
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const BonePoint& marker = model.markers[i];
@@ -175,82 +140,62 @@ json markersToJson(const ActorModel& model) {
 
 }  // namespace
 
-ActorModel actorOfShape(const BodyTemplate& body, const ShapeVector& shape) {
-  ActorModel model = averageActor(boneLengths(shape));
-  const double average = body.girthOf(statureOf(model.skeleton.lengths));
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    const auto girth = static_cast<Eigen::Index>(girthOfPart(partAt(static_cast<int>(i))));
-    model.radii_m[i] *= shape[kBoneLengthCount + girth] / average;
-  }
-  return model;
-}
-
-CalibratedActor scaledActor(CalibratedActor actor, double factor) {
-  actor.shape *= factor;
-  actor.model.skeleton = makeSkeleton(boneLengths(actor.shape));
-  for (BonePoint& marker : actor.model.markers) marker.p_bone *= factor;
-  for (double& radius : actor.model.radii_m) radius *= factor;
-  for (const RadiusField& radius : kRadii) actor.*radius.field *= factor;
-  return actor;
-}
-
-CalibratedActor readActorFile(const std::filesystem::path& path) {
+Actor readActorFile(const std::filesystem::path& path) {
   const std::string where = path.string();
   const json file = readJsonFile(path);
   checkJsonFormat(file, kFormat, kVersion, where);
-  CalibratedActor actor;
+  ActorMeasurement measured;
   const BoneLengths lengths = readLengths(file, where);
   checkStature(file, lengths, where);
   if (file.contains("surface")) {
     const std::string sex = jsonString(file, "surface", where);
     if (sex != "man" && sex != "woman") throw Error("\"surface\" must be \"man\" or \"woman\"", where);
-    actor.sex = sex == "man" ? Sex::Male : Sex::Female;
+    measured.sex = sex == "man" ? Sex::Male : Sex::Female;
   }
-  const double girth = statureOf(lengths) / templateStature(actor.sex);
-  actor.shape = shapeVector(lengths, girth);
-  readGirths(file, where, actor);
-  actor.model = averageActor(lengths);
-  readMarkers(file, where, actor.model);
+  measured.shape = shapeVector(lengths, BodyTemplate::ofSex(measured.sex).girthOf(statureOf(lengths)));
+  readGirths(file, where, measured);
   if (const json* radii = optionalObject(file, "radii_m", where)) {
-    for (const RadiusField& radius : kRadii) {
-      if (radii->contains(radius.name)) actor.*radius.field = bounded(*radii, radius.name, 0.0, 0.6, where);
+    for (const LimbRadius& radius : kLimbRadii) {
+      if (radii->contains(radius.name)) measured.*radius.field = bounded(*radii, radius.name, 0.0, 0.6, where);
     }
   }
-  if (file.contains("depth_scale")) actor.depth_scale = bounded(file, "depth_scale", 0.5, 2.0, where);
-  if (file.contains("camera")) actor.camera = jsonString(file, "camera", where);
-  readFit(file, where, actor.fit);
+  if (file.contains("depth_scale")) measured.depth_scale = bounded(file, "depth_scale", 0.5, 2.0, where);
+  if (file.contains("camera")) measured.camera = jsonString(file, "camera", where);
+  readFit(file, where, measured.fit);
+  Actor actor = averageActor(lengths);
+  readMarkers(file, where, actor);
+  actor.surface = surfaceOf(measured);
+  actor.measured = std::make_shared<const ActorMeasurement>(std::move(measured));
   return actor;
 }
 
-void writeActorFile(const std::filesystem::path& path, const CalibratedActor& actor) {
+void writeActorFile(const std::filesystem::path& path, const Actor& actor) {
+  if (!actor.measured) throw Error("an average body was not measured: there is nothing to write", path.string());
+  const ActorMeasurement& measured = *actor.measured;
   json lengths, girths, radii;
   for (int i = 0; i < kBoneLengthCount; ++i) {
-    lengths[text(kBoneLengthNames[static_cast<std::size_t>(i)])] = rounded(actor.shape[i]);
+    lengths[text(kBoneLengthNames[static_cast<std::size_t>(i)])] = rounded(measured.shape[i]);
   }
   for (int g = 0; g < kGirthCount; ++g) {
-    girths[text(kGirthNames[static_cast<std::size_t>(g)])] = rounded(actor.shape[kBoneLengthCount + g]);
+    girths[text(kGirthNames[static_cast<std::size_t>(g)])] = rounded(measured.shape[kBoneLengthCount + g]);
   }
-  for (const RadiusField& radius : kRadii) radii[radius.name] = rounded(actor.*radius.field);
+  for (const LimbRadius& radius : kLimbRadii) radii[radius.name] = rounded(measured.*radius.field);
   writeJsonFile(path, {{"format", kFormat},
                        {"version", kVersion},
-                       {"stature_m", rounded(actor.stature())},
+                       {"stature_m", rounded(actor.stature_m())},
                        {"bone_lengths_m", lengths},
                        {"girths", girths},
                        {"radii_m", radii},
-                       {"markers", markersToJson(actor.model)},
-                       {"surface", actor.sex == Sex::Male ? "man" : "woman"},
-                       {"depth_scale", rounded(actor.depth_scale)},
-                       {"camera", actor.camera},
+                       {"markers", markersToJson(actor)},
+                       {"surface", measured.sex == Sex::Male ? "man" : "woman"},
+                       {"depth_scale", rounded(measured.depth_scale)},
+                       {"camera", measured.camera},
                        {"fit",
-                        {{"tpose_frames", actor.fit.tpose_frames},
-                         {"other_frames", actor.fit.other_frames},
-                         {"surface_m", rounded(actor.fit.surface_m)},
-                         {"marker_m", rounded(actor.fit.marker_m)},
-                         {"confidence", rounded(actor.fit.confidence)}}}});
-}
-
-SurfaceModel actorSurface(const CalibratedActor& actor, int points) {
-  return BodyTemplate(actor.sex, points).surface(actor.shape);
+                        {{"tpose_frames", measured.fit.tpose_frames},
+                         {"other_frames", measured.fit.other_frames},
+                         {"surface_m", rounded(measured.fit.surface_m)},
+                         {"marker_m", rounded(measured.fit.marker_m)},
+                         {"confidence", rounded(measured.fit.confidence)}}}});
 }
 
 }  // namespace depthmocap

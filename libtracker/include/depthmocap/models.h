@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+
+namespace depthmocap {
+
+class PartClassifier;
+struct PoseDatabase;
+
+// What the tracker has learned beforehand. Constant and cheap to copy: trackers on several threads share it.
+struct Models {
+  std::shared_ptr<const PartClassifier> classifier;  // which body part a pixel belongs to
+  std::shared_ptr<const PoseDatabase> database;      // poses of people
+
+  // The models that come with the library (share/depthmocap). Throws Error saying where they were looked for.
+  static Models shipped();
+  // A forest and a pose database from files; an empty path means the shipped one. Throws Error where a file is missing
+  // or damaged.
+  static Models load(const std::filesystem::path& forest, const std::filesystem::path& pose_database);
+};
+
+}  // namespace depthmocap

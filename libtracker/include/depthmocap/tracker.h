@@ -1,0 +1,54 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+
+#include "depthmocap/actor.h"
+#include "depthmocap/camera_model.h"
+#include "depthmocap/depth_frame.h"
+#include "depthmocap/models.h"
+#include "depthmocap/tracked_frame.h"
+
+namespace depthmocap {
+
+struct TrackerConfig;
+
+// Tracks one actor through the frames of one camera (Su, Chai, Xia 2016; docs/architecture.md).
+// Deterministic: the same frames give the same results for any number of threads. Not thread-safe.
+class Tracker {
+ public:
+  // With the default configuration. Without an actor tracking starts from an average body and fits its size over the
+  // first seconds; a given actor keeps its size. Throws Error where a part of the models is missing or the camera has
+  // no size or focal length.
+  Tracker(const Models& models, const CameraModel& camera, const std::optional<Actor>& actor = std::nullopt);
+  // Throws Error for an invalid configuration, too.
+  Tracker(const Models& models, const CameraModel& camera, const TrackerConfig& config,
+          const std::optional<Actor>& actor = std::nullopt);
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+
+  // The pose of one frame, whose depth has the camera's size [px] and is in metres, undistorted, 0 = no measurement;
+  // times must increase. A frame without a person is no error: see TrackedFrame::state. The result is valid until the
+  // next call. Throws Error for a frame of another size.
+  const TrackedFrame& process(const DepthFrame& frame);
+
+  // Between frames: forgets the actor; the next frame looks for somebody anew. The size of an actor who was not given
+  // starts at the average again.
+  void reset();
+  // The same, and the next frame looks for the person nearest to this point [m], camera frame.
+  void lockOn(const Eigen::Vector3d& p_camera);
+  // The same with another body, for example that of a calibration that has just ended. Nothing is loaded: as cheap as
+  // reset(). Poses are still searched for with the proportions that the tracker began with, at the new body's size.
+  void use(const Actor& actor);
+
+  // The body in use.
+  [[nodiscard]] const Actor& actor() const;
+
+ private:
+  friend struct TrackerMeasurement;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace depthmocap

@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+
+#include "libtracker/core/facing.h"
+#include "libtracker/solve/map_solver.h"
+#include "libtracker/tracker/size_adapter.h"
+
+namespace depthmocap {
+
+// A pose that explains some evidence.
+struct Hypothesis {
+  Pose q = Pose::Zero();  // world
+  MapSummary summary;     // of the last solve
+  bool fresh = false;     // from a search over all poses, not from the frame before: it has no velocity
+  // Of a pose from one image alone: the body with the size that was found with it.
+  std::optional<SizeAdapter> body;
+  Facing facing = Facing::Front;         // the side that the pose was found for, and
+  double cost = 0;                       // [energy] against the poses of other sides
+  std::optional<double> observed_scale;  // size of the actor over that of the body in use; set while it is being fitted
+};
+
+}  // namespace depthmocap

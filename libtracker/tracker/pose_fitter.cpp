@@ -1,0 +1,100 @@
+#include "libtracker/tracker/pose_fitter.h"
+
+#include <utility>
+
+#include "libtracker/solve/size_estimate.h"
+
+namespace depthmocap {
+namespace {
+
+// Rounds of solving and scaling: the first size of an unknown actor has converged after this many.
+constexpr int kFirstSizeRounds = 3;
+
+}  // namespace
+
+PoseFitter::PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor& body, const TrackerConfig& config)
+    : config_(config),
+      database_(std::move(database)),
+      search_stature_m_(body.stature_m()),
+      search_(*database_, body.skeleton, body.markers, config.search),
+      prior_builder_(config.prior),
+      solver_(config.solve),
+      global_(config.prior.neighbours.back(), config.policy.start_poses),
+      dense_(config.surface, config.free_space, config.policy.dense_rounds) {}
+
+void PoseFitter::look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
+                      const Eigen::Matrix3d& R_world_camera) {
+  dense_.look(depth, actor.mask, camera, R_world_camera);
+  whole_in_view_ = !actor.touches_border && actor.visible_share == 1;
+}
+
+void PoseFitter::buildPrior(const Evidence& evidence, const Prediction& prediction, const Actor& actor) {
+  PoseQuery query;
+  query.markers = evidence.markers_world;
+  query.has_history = true;
+  query.q_prev = prediction.q_prev;
+  query.q_prev2 = prediction.q_prev2;
+  query.heading = prediction.q_prev[kRootRy];
+  query.scale = searchScale(actor);
+  search_.search(query, config_.prior.neighbours.back(), neighbours_);
+  prior_builder_.build(*database_, neighbours_, prior_);
+}
+
+Hypothesis PoseFitter::fitNext(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
+                               const FootContacts* contacts) {
+  Hypothesis fit;
+  fit.q = prediction.q;
+  MapInput input{actor.skeleton, actor.markers,      evidence.markers_world,
+                 &prior_,        &prediction.q_prev, &prediction.q_prev2};
+  input.contacts = contacts;
+  fit.summary = solver_.solve(input, fit.q);
+  if (fit.summary.rms_marker_m > config_.policy.suspect_rms_m) {
+    const auto& other =
+        global_.find(evidence.markers_world, searchScale(actor), actor, *database_, search_, prior_builder_, solver_);
+    if (other.found && other.summary.energy < config_.policy.switch_gain * energyOfImage(fit.summary)) {
+      fit.summary = other.summary;
+      fit.q = other.q;
+      fit.fresh = true;
+      input.contacts = nullptr;
+    }
+  }
+  dense_.refine(evidence.samples, actor, input, solver_, fit.q, fit.summary);
+  return fit;
+}
+
+std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const SizeAdapter& body) {
+  Hypothesis fit;
+  fit.fresh = true;
+  fit.body = body;
+  const GlobalSearch::Result* found = nullptr;
+  for (int round = 0; round < kFirstSizeRounds; ++round) {
+    const Actor& actor = fit.body->actor();
+    found =
+        &global_.find(evidence.markers_world, searchScale(actor), actor, *database_, search_, prior_builder_, solver_);
+    if (!found->found || !fit.body->adapting()) break;
+    fit.body->rescale(observedScale(evidence, actor, found->q));
+  }
+  if (!found->found || !believed(found->summary)) return std::nullopt;
+  fit.q = found->q;
+  fit.summary = found->summary;
+  const Actor& actor = fit.body->actor();
+  const MapInput input{actor.skeleton, actor.markers, evidence.markers_world, &global_.prior(), nullptr, nullptr};
+  dense_.refine(evidence.samples, actor, input, solver_, fit.q, fit.summary);
+  return fit;
+}
+
+double PoseFitter::energyOfImage(const MapSummary& fit) const {
+  return fit.energy - config_.solve.lambda_smooth * fit.e_smooth - config_.solve.lambda_contact * fit.e_contact;
+}
+
+double PoseFitter::observedScale(const Evidence& evidence, const Actor& actor, const Pose& q) {
+  if (whole_in_view_) {
+    const double ratio = dense_.extentRatio(evidence.pixels, actor, q);
+    if (ratio > 0) return ratio;
+  }
+  fk_.update(actor.skeleton, q);
+  const SizeEstimate estimate = estimateSize(fk_, actor.markers, evidence.markers_world);
+  return estimate.valid ? estimate.scale : 1.0;
+}
+
+}  // namespace depthmocap

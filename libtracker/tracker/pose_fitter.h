@@ -1,0 +1,63 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "depthmocap/depth_frame.h"
+#include "libtracker/posedb/pose_search.h"
+#include "libtracker/prior/local_prior_builder.h"
+#include "libtracker/segment/segment.h"
+#include "libtracker/tracker/dense_refinement.h"
+#include "libtracker/tracker/evidence.h"
+#include "libtracker/tracker/global_search.h"
+#include "libtracker/tracker/hypothesis.h"
+#include "libtracker/tracker/prediction.h"
+#include "libtracker/tracker/tracker_config.h"
+
+namespace depthmocap {
+
+// From evidence to a pose: (3) nearest poses, (4) local model, (5) maximum a posteriori, and the dense term.
+class PoseFitter {
+ public:
+  // Poses are searched for with this body's proportions, whatever size the actor has later.
+  PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor& body, const TrackerConfig& config);
+
+  // The image that the next evidence is of; depth and region must outlive the calls for this frame.
+  void look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
+            const Eigen::Matrix3d& R_world_camera);
+
+  // (3) and (4) for fitNext(): the poses nearest to the markers and to the pose before, and the local model over them.
+  void buildPrior(const Evidence& evidence, const Prediction& prediction, const Actor& actor);
+  // (5) from the pose before; where that fits badly, a search over all poses competes with it. `contacts` may be null.
+  // Whether the pose is to be believed is for the caller to ask.
+  Hypothesis fitNext(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
+                     const FootContacts* contacts);
+  // A pose from one image alone; a body whose size is being fitted takes it at once. None if no pose is believed.
+  std::optional<Hypothesis> fitFirst(const Evidence& evidence, const SizeAdapter& body);
+
+  // The fit of the seen markers is close enough to be a person.
+  [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config_.policy.max_rms_m; }
+  // The energy without what the frames before say.
+  [[nodiscard]] double energyOfImage(const MapSummary& fit) const;
+  // How much larger the actor is than this body: by the height of the whole person where it is in view, else by the
+  // markers; 1 if neither can tell.
+  double observedScale(const Evidence& evidence, const Actor& actor, const Pose& q);
+
+ private:
+  [[nodiscard]] double searchScale(const Actor& actor) const { return actor.stature_m() / search_stature_m_; }
+
+  const TrackerConfig config_;
+  const std::shared_ptr<const PoseDatabase> database_;
+  const double search_stature_m_;  // of the body whose markers the search holds
+  PoseSearch search_;
+  LocalPriorBuilder prior_builder_;
+  MapSolver solver_;
+  GlobalSearch global_;
+  DenseRefinement dense_;
+  std::vector<PoseNeighbour> neighbours_;
+  LocalPrior prior_;
+  bool whole_in_view_ = false;  // of the present image
+  ForwardKinematics fk_;
+};
+
+}  // namespace depthmocap
