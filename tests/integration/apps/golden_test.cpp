@@ -1,5 +1,5 @@
-// The outputs of the bundled recordings, byte for byte. A change of these bytes is either a mistake or a deliberate mend,
-// whose commit says what changed and why; scripts/renew-golden then writes the new sums.
+// The outputs of the bundled recordings, byte for byte. A change of these bytes is either a mistake or a deliberate
+// mend, whose commit says what changed and why; scripts/renew-golden then writes the new sums.
 #include <string>
 
 #include <gtest/gtest.h>
@@ -16,9 +16,8 @@ TEST_P(Golden, OutputsAreTheSameByteForByte) {
   const TemporaryFolder folder;
   const std::string name = GetParam();
   const auto at = [&](const std::string& ending) { return quoted(folder / (name + ending)); };
-  const ProgramResult replayed =
-      runProgram("replay " + quoted(bundledRecording(name)) + " --joints " + at(".joints.csv") + " --pose " +
-                 at(".pose.csv") + " --bvh " + at(".bvh"));
+  const ProgramResult replayed = runProgram("replay " + quoted(bundledRecording(name)) + " --joints " +
+                                            at(".joints.csv") + " --pose " + at(".pose.csv") + " --bvh " + at(".bvh"));
   ASSERT_EQ(replayed.exit_code, 0) << replayed.errors;
   const ProgramResult checked = runProgram("-c 'cd " + folder.path().string() + " && grep " + name + " " +
                                                quoted(testData("golden/SHA256SUMS")) + " | sha256sum --check --strict'",
