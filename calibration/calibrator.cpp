@@ -14,8 +14,11 @@
 #include "depthmocap/error.h"
 #include "depthmocap/world_frame.h"
 #include "libtracker/actor/make_actor.h"
+#include "libtracker/classify/forest_classifier.h"
+#include "libtracker/classify/forest_file.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/parallel.h"
+#include "libtracker/core/shipped_files.h"
 #include "libtracker/markers/find_markers.h"
 #include "libtracker/segment/segment.h"
 #include "libtracker/tracker/alignment.h"
@@ -314,6 +317,15 @@ void Calibrator::Impl::refuse() const {
   }
   throw Error(fmt::format("only {} of the {} frames needed show a T-pose{}", good_count, config.frames, why),
               "calibration", advice);
+}
+
+std::shared_ptr<const CalibratorModels> loadCalibratorModels(const Models& tracking,
+                                                             const std::filesystem::path& shape_space) {
+  const auto models = std::make_shared<CalibratorModels>();
+  models->tpose = std::make_shared<const ForestClassifier>(loadForest(shippedFile("tpose.forest")));
+  models->general = tracking.classifier;
+  models->space = loadShapeSpace(shape_space.empty() ? shippedFile("shape_space.json") : shape_space);
+  return models;
 }
 
 Calibrator::Calibrator(std::shared_ptr<const CalibratorModels> models, const CameraModel& camera,

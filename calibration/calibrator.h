@@ -10,6 +10,7 @@
 #include "calibration/tpose_check.h"
 #include "depthmocap/actor.h"
 #include "depthmocap/depth_frame.h"
+#include "depthmocap/models.h"
 #include "libtracker/classify/part_classifier.h"
 
 namespace depthmocap {
@@ -31,6 +32,11 @@ struct CalibratorModels {
   std::shared_ptr<const PartClassifier> general;  // the tracker's: markers are calibrated as the tracker will see them
   ShapeSpace space;
 };
+
+// The T-pose forest and the shape space that come with the library (`shape_space` empty), and the tracker's classifier.
+// Throws Error where a file is missing or damaged.
+std::shared_ptr<const CalibratorModels> loadCalibratorModels(const Models& tracking,
+                                                             const std::filesystem::path& shape_space = {});
 
 // The shapes fitted to the first good frame; what a preview shows.
 struct FittedLimbs {

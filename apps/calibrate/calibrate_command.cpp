@@ -14,14 +14,8 @@
 #include "apps/commands.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
-#include "apps/track/tracker_setup.h"
-#include "calibration/calibrator.h"
-#include "calibration/pose_collector.h"
+#include "calibration/calibration_run.h"
 #include "depthmocap/error.h"
-#include "depthmocap/tracker.h"
-#include "libtracker/classify/forest_classifier.h"
-#include "libtracker/classify/forest_file.h"
-#include "libtracker/core/shipped_files.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/sensor/open_source.h"
 
@@ -31,10 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostTracked = 300;  // frames in which other poses are looked for
-constexpr int kOtherFrames = 12;
 constexpr std::chrono::milliseconds kWait{200};  // for one frame of a camera
-constexpr std::size_t kFewestOthers = 4;
+constexpr int kKeepEvery = 3;                    // [frames] of a camera; neighbours hardly differ
+constexpr std::size_t kMostKept = 60;            // frames of a camera in other poses
 
 struct CalibrateOptions {
   fs::path recording;
@@ -49,14 +42,6 @@ struct CalibrateOptions {
   double seconds = 60;
 };
 
-std::shared_ptr<const CalibratorModels> calibratorModels(const CalibrateOptions& o) {
-  const auto models = std::make_shared<CalibratorModels>();
-  models->tpose = std::make_shared<const ForestClassifier>(loadForest(shippedFile("tpose.forest")));
-  models->general = Models::load(o.forest, o.posedb).classifier;
-  models->space = loadShapeSpace(o.shape_space.empty() ? shippedFile("shape_space.json") : o.shape_space);
-  return models;
-}
-
 bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame) {
   try {
     reader.read(i, frame);
@@ -67,111 +52,82 @@ bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame) {
   }
 }
 
-void collect(RecordingReader& reader, Calibrator& calibrator) {
+void collect(RecordingReader& reader, CalibrationRun& run) {
   Progress progress("looking for the T-pose", reader.frameCount());
   DepthFrame frame;
   for (std::size_t i = 0; i < reader.frameCount(); ++i) {
-    if (readFrame(reader, i, frame)) calibrator.add(frame);
+    if (readFrame(reader, i, frame)) run.add(frame);
     progress.update(i + 1);
   }
 }
 
-// What the tracker makes of a recording.
-struct OtherPoses {
-  std::vector<PoseObservation> observations;
-  double stature_m = 0;  // [m] of the body that it was tracked with in the end
-};
-
-// Tracks the recording with the body that the T-pose gave, or (null) with an average one of the assumed stature, to
-// learn from other poses.
-OtherPoses otherPoses(const CalibrateOptions& o, RecordingReader& reader, const Actor* actor,
-                      double assumed_stature_m = 0) {
-  TrackOptions track;
-  track.forest = o.forest;
-  track.posedb = o.posedb;
-  std::optional<Actor> body;
-  if (actor != nullptr) body = *actor;
-  track.threads = o.config.threads;
-  track.assumed_stature_m = assumed_stature_m;
-  Tracker tracker(loadModels(track), reader.info().camera, trackerConfig(track), body);
-  PoseCollector collector(reader.info().camera, o.config.points_per_part);
-  const std::size_t count = std::min(reader.frameCount(), kMostTracked);
-  Progress progress("looking at other poses", count);
-  DepthFrame frame;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (readFrame(reader, i, frame)) collector.add(frame, tracker.process(frame));
-    progress.update(i + 1);
-  }
-  return {collector.chosen(kOtherFrames), statureOf(tracker.actor().skeleton.lengths)};
+// The frames of a recording, for other poses than the T-pose.
+CalibrationRun::Frames othersOf(RecordingReader& reader) {
+  return [&reader](const auto& visit) {
+    const std::size_t count = std::min(reader.frameCount(), CalibrationRun::kMostOthers);
+    Progress progress("looking at other poses", count);
+    DepthFrame frame;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (readFrame(reader, i, frame)) visit(frame);
+      progress.update(i + 1);
+    }
+  };
 }
 
-// What a calibration gave and how long its solve took.
-struct Calibration {
-  Actor actor;
-  RecordingInfo info;
-  double solve_s = 0;
-};
-
-template <typename Work>
-double timed(Work&& work) {
-  const auto start = Clock::now();
-  work();
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Until enough good frames have come; tells the actor what to change.
-void watch(DepthSource& source, Calibrator& calibrator, double limit_s) {
+// Until enough good frames have come; tells the actor what to change. What the actor does meanwhile may be told from
+// the T-pose later.
+std::vector<DepthFrame> watch(DepthSource& source, CalibrationRun& run, double limit_s) {
   const StopRequest on_ctrl_c;
   const auto start = SensorClock::now();
+  std::vector<DepthFrame> others;
   SensorFrame frame;
   std::string said;
-  while (!calibrator.enough() && !StopRequest::made()) {
+  for (std::int64_t seen = 0; !run.enough() && !StopRequest::made();) {
     if (SensorClock::now() - start > std::chrono::duration<double>(limit_s)) break;
     const SourceState state = source.next(frame, kWait);
     if (state == SourceState::Ended) break;
     if (state != SourceState::Frame) continue;
-    const TPoseVerdict verdict = calibrator.add(frame.depth);
+    if (seen++ % kKeepEvery == 0 && others.size() < kMostKept) others.push_back(frame.depth);
+    const TPoseVerdict verdict = run.add(frame.depth);
     const std::string text = verdict.good() ? "good, hold still" : verdict.advice;
     if (text != said) std::cerr << text << '\n';
     said = text;
   }
+  return others;
+}
+
+// What a calibration gave.
+struct Calibration {
+  Actor actor;
+  double solve_s = 0;
+};
+
+Calibration finish(const CalibrateOptions& o, CalibrationRun& run, const CalibrationRun::Frames& others,
+                   const CameraModel& camera) {
+  Calibration result{run.solve(others), run.solve_s()};
+  if (!o.preview.empty()) writeCalibrationPicture(o.preview, run.shown(), result.actor, camera);
+  return result;
+}
+
+CalibrationRun newRun(const CalibrateOptions& o, const RecordingInfo& info) {
+  CalibrationRunConfig config{o.config, o.tpose_only, info.camera_name};
+  const Models models = Models::load(o.forest, o.posedb);
+  return {models, loadCalibratorModels(models, o.shape_space), info.camera, config};
 }
 
 Calibration calibrateLive(const CalibrateOptions& o) {
   const auto source = openSource(o.recording.string(), {});
-  Calibrator calibrator(calibratorModels(o), source->info().camera, o.config);
-  watch(*source, calibrator, o.seconds);
-  Calibration result;
-  result.info = source->info();
-  result.solve_s = timed([&] { result.actor = calibrator.solve(); });
-  if (!o.preview.empty()) {
-    writeCalibrationPicture(o.preview, calibrator.shown(), result.actor, result.info.camera);
-  }
-  return result;
+  CalibrationRun run = newRun(o, source->info());
+  const std::vector<DepthFrame> others = watch(*source, run, o.seconds);
+  const auto frames = [&](const auto& visit) { std::for_each(others.begin(), others.end(), visit); };
+  return finish(o, run, frames, source->info().camera);
 }
 
 Calibration calibrateRecording(const CalibrateOptions& o) {
   const auto reader = openRecording(o.recording);
-  Calibrator calibrator(calibratorModels(o), reader->info().camera, o.config);
-  collect(*reader, calibrator);
-  Calibration result;
-  result.info = reader->info();
-  if (o.config.any_pose) {
-    // Once to learn the size, once with it.
-    const OtherPoses others = otherPoses(o, *reader, nullptr, otherPoses(o, *reader, nullptr).stature_m);
-    result.solve_s = timed([&] { result.actor = calibrator.solveWithoutTPose(others.observations, others.stature_m); });
-    return result;
-  }
-  result.solve_s = timed([&] { result.actor = calibrator.solve(); });
-  if (!o.tpose_only) {
-    const Actor as_seen = asSeen(result.actor);
-    const auto others = otherPoses(o, *reader, &as_seen).observations;
-    if (others.size() >= kFewestOthers) result.actor = calibrator.solve(others);
-  }
-  if (!o.preview.empty()) {
-    writeCalibrationPicture(o.preview, calibrator.shown(), result.actor, result.info.camera);
-  }
-  return result;
+  CalibrationRun run = newRun(o, reader->info());
+  collect(*reader, run);
+  return finish(o, run, othersOf(*reader), reader->info().camera);
 }
 
 void calibrate(CalibrateOptions o) {
@@ -180,10 +136,7 @@ void calibrate(CalibrateOptions o) {
   if (is_camera && o.config.any_pose) {
     throw Error("--any-pose needs a recording", o.recording.string(), "record first, or stand in a T-pose");
   }
-  Calibration result = is_camera ? calibrateLive(o) : calibrateRecording(o);
-  ActorMeasurement measured = *result.actor.measured;
-  measured.camera = result.info.camera_name;
-  result.actor.measured = std::make_shared<const ActorMeasurement>(std::move(measured));
+  const Calibration result = is_camera ? calibrateLive(o) : calibrateRecording(o);
   writeActorFile(o.out, result.actor);
   const ActorMeasurement::Fit& fit = result.actor.measured->fit;
   std::cerr << fmt::format("a body of {:.3f} m from {} frames of T-pose (solved in {:.2f} s) and {} in other poses; ",

@@ -11,14 +11,13 @@
 #include "apps/terminal/status_line.h"
 #include "apps/terminal/stop_request.h"
 #include "apps/track/camera_watch.h"
-#include "apps/track/live_loop.h"
-#include "apps/track/run_stats.h"
 #include "apps/track/source_options.h"
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
 #include "apps/view/live_view.h"
 #include "depthmocap/error.h"
+#include "libtracker/session/live_session.h"
 
 namespace depthmocap {
 namespace {
@@ -31,30 +30,7 @@ struct LiveOptions {
   fs::path record;
 };
 
-// Files, figures and the page of a run.
-class OutputSink : public LiveSink {
- public:
-  // `view` may be null.
-  OutputSink(TrackOutputs& outputs, RunStats& stats, LiveView* view) : outputs_(outputs), stats_(stats), view_(view) {}
-  void onFrame(const DepthFrame& frame, const TrackedFrame& tracked) override {
-    const SensorClock::time_point start = SensorClock::now();
-    stats_.addFrame(tracked);
-    const TrackedFrame& shown = outputs_.write(frame, tracked);
-    if (view_ != nullptr) view_->onFrame(frame, shown);
-    stats_.addWrite(std::chrono::duration<double, std::milli>(SensorClock::now() - start).count());
-  }
-
-  void onStatus(const LiveStatus& status) override {
-    if (view_ != nullptr) view_->onStatus(status);
-  }
-
- private:
-  TrackOutputs& outputs_;
-  RunStats& stats_;
-  LiveView* view_;
-};
-
-std::string statusText(const LiveStatus& s) {
+std::string statusText(const SessionStatus& s) {
   std::string text = s.camera.connected ? std::string(trackStateName(s.state)) : "no camera";
   text +=
       fmt::format("  {:.0f} fps  latency {:.0f} ms  frames {}  skipped {}", s.fps, s.latency_ms, s.tracked, s.replaced);
@@ -65,10 +41,10 @@ std::string statusText(const LiveStatus& s) {
 }
 
 // The line in the terminal.
-class TerminalSink : public LiveSink {
+class TerminalSink : public FrameSink {
  public:
-  void onFrame(const DepthFrame&, const TrackedFrame&) override {}
-  void onStatus(const LiveStatus& status) override {
+  void onFrame(const SessionFrame&) override {}
+  void onStatus(const SessionStatus& status) override {
     watch_.report(status.camera, line_);
     watch_.report(status.recording, line_);
     if (line_.due()) line_.show(statusText(status));
@@ -93,28 +69,28 @@ std::string summaryText(const LiveFigures& f, const RunStats& stats) {
 struct LiveRun {
   explicit LiveRun(const LiveOptions& options)
       : source(openChosenSource(options.source)),
-        tracker(loadModels(options.track), source->info().camera, trackerConfig(options.track), actorOf(options.track)),
+        models(loadModels(options.track)),
+        tracker(models, source->info().camera, trackerConfig(options.track), actorOf(options.track)),
         outputs(options.track, source->info()) {
     if (!options.record.empty()) recorder.emplace(options.record, source->info(), source->waitsForReader());
-    if (options.track.view.on) view.emplace(options.track, options.source.source, source->info(), tracker);
+    session.emplace(*source, tracker, recorder ? &*recorder : nullptr,
+                    LiveSessionOptions{options.source.seconds, options.track.smooth});
+    session->addSink(outputs);
+    if (options.track.view.on) {
+      session->addSink(view.emplace(options.track.view, options.source.source, source->info(), models,
+                                    options.track.threads, tracker));
+    }
+    session->addSink(terminal);
   }
   std::unique_ptr<DepthSource> source;
+  Models models;
   Tracker tracker;
   TrackOutputs outputs;
   std::optional<Recorder> recorder;
   std::optional<LiveView> view;
-  RunStats stats{Durations::Keep::Binned};
-};
-
-LiveFigures track(LiveRun& run, double seconds) {
-  LiveLoop loop(*run.source, run.tracker, run.recorder ? &*run.recorder : nullptr);
-  OutputSink files(run.outputs, run.stats, run.view ? &*run.view : nullptr);
   TerminalSink terminal;
-  loop.addSink(files);
-  loop.addSink(terminal);
-  loop.run({seconds, [] { return StopRequest::made(); }});
-  return loop.figures();
-}
+  std::optional<LiveSession> session;
+};
 
 // Every file is completed, whichever fails first; the first failure is the command's.
 void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, double wall_s) {
@@ -131,12 +107,12 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
     figures.recorded = run.recorder->status().written;
     figures.not_recorded = run.recorder->status().dropped;
   }
-  std::cerr << summaryText(figures, run.stats) << '\n';
+  std::cerr << summaryText(figures, run.session->stats()) << '\n';
   if (figures.received == 0) attempt([&] { throw Error("not one frame came", options.source.source); });
   if (figures.received > 0) attempt([&] { run.outputs.finish(run.tracker.actor()); });
-  run.stats.setLive(figures);
+  run.session->stats().setLive(figures);
   if (!options.track.stats.empty())
-    attempt([&] { run.stats.write(options.track.stats, wall_s, options.track.actor.empty()); });
+    attempt([&] { run.session->stats().write(options.track.stats, wall_s, options.track.actor.empty()); });
   if (failure) std::rethrow_exception(failure);
 }
 
@@ -144,7 +120,8 @@ void live(const LiveOptions& options) {
   LiveRun run(options);
   const StopRequest on_ctrl_c;
   const SensorClock::time_point start = SensorClock::now();
-  LiveFigures figures = track(run, options.source.seconds);
+  run.session->run([] { return StopRequest::made(); });
+  LiveFigures figures = run.session->figures();
   figures.source = options.source.source;
   finish(run, figures, options, std::chrono::duration<double>(SensorClock::now() - start).count());
 }

@@ -53,4 +53,12 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
       ->capture_default_str();
 }
 
+void addLookAheadOption(CLI::App& command, double& seconds) {
+  command
+      .add_option("--look-ahead", seconds,
+                  "Each pose is steadied by the frames up to so many seconds before and after it; 0 = off, as live is")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
 }  // namespace depthmocap

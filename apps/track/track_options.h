@@ -4,21 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/view/view_options.h"
+
 namespace CLI {
 class App;
 }
 
 namespace depthmocap {
-
-// The page that shows the tracking.
-struct ViewOptions {
-  bool on = false;
-  std::string address = "127.0.0.1";
-  int port = 8010;
-  std::string token;
-  int vmc_listen = 0;                  // UDP port; 0 = none
-  std::filesystem::path folder = ".";  // for what the page records and calibrates
-};
 
 // Options that every tracking command shares; empty = not asked for.
 struct TrackOptions {
@@ -45,5 +37,8 @@ struct TrackOptions {
 };
 
 void addTrackOptions(CLI::App& command, TrackOptions& options);
+
+// --look-ahead; `seconds` keeps its value unless it is given.
+void addLookAheadOption(CLI::App& command, double& seconds);
 
 }  // namespace depthmocap

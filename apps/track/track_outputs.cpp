@@ -12,7 +12,6 @@
 #include "depthmocap/camera_model.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/output/pose_smoother.h"
 #include "libtracker/output/vmc_sender.h"
 #include "libtracker/recording/track_files.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -57,8 +56,7 @@ class LabelWriter {
 }  // namespace
 
 struct TrackOutputs::Files {
-  Files(const TrackOptions& options, const RecordingInfo& info)
-      : animation(options, info.fps), smoother(options.smooth) {}
+  Files(const TrackOptions& options, const RecordingInfo& info) : animation(options, info.fps) {}
 
   std::optional<JointsWriter> joints;
   std::optional<PoseWriter> pose;
@@ -67,11 +65,7 @@ struct TrackOutputs::Files {
   std::optional<ContactSheet> contact_sheet;
   AnimationFiles animation;
   std::optional<VmcSender> vmc;
-  PoseSmoother smoother;
-  TrackedFrame smoothed;
   BoneLengths last_lengths;
-
-  const TrackedFrame& smooth(const TrackedFrame& tracked);
 };
 
 TrackOutputs::TrackOutputs(const TrackOptions& options, const RecordingInfo& info)
@@ -92,35 +86,20 @@ TrackOutputs::~TrackOutputs() {
   }
 }
 
-const TrackedFrame& TrackOutputs::Files::smooth(const TrackedFrame& tracked) {
-  if (!smoother.on()) return tracked;
-  if (tracked.state == TrackState::Lost) {
-    smoother.reset();
-    return tracked;
-  }
-  if (tracked.R_world_camera != smoothed.R_world_camera) smoother.reset();
-  smoothed = tracked;
-  smoothed.q = smoother.smooth(tracked.q, tracked.time_s);
-  smoothed.joints_camera =
-      tracked.R_world_camera.transpose() * jointPositions(makeSkeleton(tracked.lengths), smoothed.q);
-  return smoothed;
-}
-
-const TrackedFrame& TrackOutputs::write(const DepthFrame& frame, const TrackedFrame& tracked) {
+void TrackOutputs::onFrame(const SessionFrame& frame) {
   Files& f = *files_;
-  const TrackedFrame& shown = f.smooth(tracked);
+  const TrackedFrame& shown = frame.tracked;
   const JointsRow row = jointsRow(shown);
   if (f.joints) f.joints->write(row);
   if (f.pose && shown.state != TrackState::Lost)
     f.pose->write({shown.frame, shown.time_s, shown.q, shown.R_world_camera});
   if (f.labels) f.labels->write(shown);
-  const PreviewFrame preview{&frame.depth, &shown.labels, &shown.markers_camera, &row};
+  const PreviewFrame preview{&frame.depth.depth, &shown.labels, &shown.markers_camera, &row};
   if (f.preview) f.preview->write(preview);
   if (f.contact_sheet) f.contact_sheet->add(preview);
   f.animation.add(shown);
   if (f.vmc) f.vmc->send(shown.time_s, shown.state, shown.lengths, shown.q);
   f.last_lengths = shown.lengths;
-  return shown;
 }
 
 void TrackOutputs::finish(const Actor& actor) {

@@ -3,20 +3,20 @@
 
 #include "apps/track/track_options.h"
 #include "depthmocap/actor.h"
-#include "depthmocap/depth_frame.h"
-#include "depthmocap/tracked_frame.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/session/frame_sink.h"
 
 namespace depthmocap {
 
 // Every file that a tracking run writes, as the options ask. Rows are written while tracking; finish() completes all
 // files, and the destructor does so too where a failure came first, so that what was tracked is kept.
-class TrackOutputs {
+class TrackOutputs : public FrameSink {
  public:
   TrackOutputs(const TrackOptions& options, const RecordingInfo& info);
-  ~TrackOutputs();
-  // Returns what was written: the tracked frame, smoothed as the options ask. Valid until the next call.
-  const TrackedFrame& write(const DepthFrame& frame, const TrackedFrame& tracked);
+  ~TrackOutputs() override;
+  TrackOutputs(const TrackOutputs&) = delete;
+  TrackOutputs& operator=(const TrackOutputs&) = delete;
+  void onFrame(const SessionFrame& frame) override;
   // `actor`: the body at the end of the run.
   void finish(const Actor& actor);
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "apps/view/background.h"
+#include "libtracker/core/background.h"
 
 namespace depthmocap {
 

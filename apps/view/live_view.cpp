@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/calibrate/live_calibration.h"
 #include "apps/view/frame_sender.h"
 #include "apps/view/live_page.h"
 #include "apps/view/view_options.h"
+#include "calibration/live_calibration.h"
 #include "depthmocap/error.h"
 #include "libtracker/output/vmc_listener.h"
 #include "libtracker/sensor/recorder.h"
@@ -47,13 +47,16 @@ std::optional<Eigen::Vector3d> pointAt(const ViewCommand& click, const DepthImag
 }  // namespace
 
 struct LiveView::Impl {
-  Impl(const TrackOptions& o, const std::string& source, const RecordingInfo& recording_info, Tracker& t)
+  Impl(const ViewOptions& o, const std::string& source, const RecordingInfo& recording_info, const Models& m,
+       int thread_count, Tracker& t)
       : options(o),
         info(recording_info),
+        models(m),
+        threads(thread_count),
         tracker(t),
-        page(webServerConfig(o.view), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}),
+        page(webServerConfig(o), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}),
         sender(info.camera, [this](std::string message) { page.sendFrame(std::move(message)); }) {
-    if (o.view.vmc_listen > 0) assistants.emplace(o.view.vmc_listen);
+    if (o.vmc_listen > 0) assistants.emplace(o.vmc_listen);
   }
 
   void obey(const ViewCommand& command, const DepthFrame& frame);
@@ -61,8 +64,10 @@ struct LiveView::Impl {
   void startCalibration();
   void calibrate(const DepthFrame& frame);
 
-  const TrackOptions& options;
-  RecordingInfo info;
+  const ViewOptions options;
+  const RecordingInfo info;
+  const Models models;
+  const int threads;
   Tracker& tracker;
   ViewFigures figures;
   std::unique_ptr<Recorder> recorder;
@@ -94,7 +99,7 @@ void LiveView::Impl::obey(const ViewCommand& command, const DepthFrame& frame) {
 void LiveView::Impl::record(bool on) {
   if (on == (recorder != nullptr)) return;
   if (on) {
-    const fs::path folder = freeName(options.view.folder, "take", "");
+    const fs::path folder = freeName(options.folder, "take", "");
     recorder = std::make_unique<Recorder>(folder, info, false);
     page.sendEvent("record", "Recording to " + folder.string());
     return;
@@ -106,7 +111,10 @@ void LiveView::Impl::record(bool on) {
 
 void LiveView::Impl::startCalibration() {
   if (calibration) return;
-  calibration = std::make_unique<LiveCalibration>(options, info);
+  CalibrationRunConfig config;
+  config.calibrator.threads = threads;
+  config.camera_name = info.camera_name;
+  calibration = std::make_unique<LiveCalibration>(models, info.camera, config);
   page.sendEvent("calibrate", calibration->text());
 }
 
@@ -115,38 +123,42 @@ void LiveView::Impl::calibrate(const DepthFrame& frame) {
   if (!calibration) return;
   try {
     if (calibration->add(frame)) page.sendEvent("calibrate", calibration->text());
-    if (!calibration->enough()) return;
-    const fs::path path = freeName(options.view.folder, "actor", ".json");
-    calibration->finish(path, tracker);
-    page.sendEvent("calibrated", calibration->text());
+    const std::optional<Actor> actor = calibration->finished();
+    if (!actor) return;
+    const fs::path path = freeName(options.folder, "actor", ".json");
+    writeActorFile(path, *actor);
+    tracker.use(asSeen(*actor));
+    page.sendEvent("calibrated", fmt::format("Calibrated: {:.2f} m, written to {}", actor->stature_m(), path.string()));
   } catch (const Error& error) {
     page.sendEvent("failure", error.what());
   }
   calibration.reset();
 }
 
-LiveView::LiveView(const TrackOptions& options, const std::string& source, const RecordingInfo& info, Tracker& tracker)
-    : impl_(std::make_unique<Impl>(options, source, info, tracker)) {
+LiveView::LiveView(const ViewOptions& options, const std::string& source, const RecordingInfo& info,
+                   const Models& models, int threads, Tracker& tracker)
+    : impl_(std::make_unique<Impl>(options, source, info, models, threads, tracker)) {
   impl_->page.start();
   std::cerr << "view: " << impl_->page.server().url() << std::endl;
 }
 
 LiveView::~LiveView() = default;
 
-void LiveView::onFrame(const DepthFrame& frame, const TrackedFrame& shown) {
+void LiveView::onFrame(const SessionFrame& given) {
   Impl& s = *impl_;
+  const DepthFrame& frame = given.depth;
   if (s.recorder) s.recorder->push({frame, {}});
   if (s.page.frameWanted()) {
     s.figures.clients = s.page.server().clients();
     s.figures.recording = s.recorder != nullptr;
-    s.sender.send(frame.depth, shown, s.figures);
+    s.sender.send(frame.depth, given.tracked, s.figures);
   }
   s.calibrate(frame);
   if (s.assistants && s.assistants->calibrationAsked()) s.obey({.action = ViewAction::Calibrate}, frame);
   while (const auto command = s.page.nextCommand()) s.obey(*command, frame);
 }
 
-void LiveView::onStatus(const LiveStatus& status) {
+void LiveView::onStatus(const SessionStatus& status) {
   impl_->figures.fps = status.fps;
   impl_->figures.latency_ms = status.latency_ms;
 }

@@ -4,25 +4,27 @@
 #include <optional>
 #include <string>
 
-#include "apps/track/live_loop.h"
-#include "apps/track/track_options.h"
+#include "apps/view/view_options.h"
+#include "depthmocap/tracker.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/session/frame_sink.h"
 
 namespace depthmocap {
 
 // The live page of a camera: shows what the tracker makes and does what the page asks for: record, calibrate, reset,
 // lock on another person. On the tracker's thread, which only copies a frame, and only where somebody could take it;
 // messages are made and sent in the background.
-class LiveView {
+class LiveView : public FrameSink {
  public:
   // Starts the server. The tracker outlives the view.
-  LiveView(const TrackOptions& options, const std::string& source, const RecordingInfo& info, Tracker& tracker);
-  ~LiveView();
+  LiveView(const ViewOptions& options, const std::string& source, const RecordingInfo& info, const Models& models,
+           int threads, Tracker& tracker);
+  ~LiveView() override;
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
-  void onFrame(const DepthFrame& frame, const TrackedFrame& shown);
-  void onStatus(const LiveStatus& status);
+  void onFrame(const SessionFrame& frame) override;
+  void onStatus(const SessionStatus& status) override;
 
  private:
   struct Impl;

@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "apps/view/background.h"
 #include "apps/view/label_runs.h"
 #include "apps/view/live_page.h"
 #include "apps/view/view_frame.h"
 #include "apps/view/view_options.h"
 #include "depthmocap/error.h"
+#include "libtracker/core/background.h"
+#include "libtracker/recording/recording.h"
 
 namespace depthmocap {
 namespace {
@@ -179,13 +180,13 @@ ReplayView::~ReplayView() {
   impl_->player.join();
 }
 
-void ReplayView::add(std::size_t index, const TrackedFrame& tracked, double fps) {
+void ReplayView::onFrame(const SessionFrame& frame) {
   Entry entry;
-  entry.index = index;
-  entry.labels = LabelRuns(tracked.labels, impl_->encoder.step());
-  entry.tracked = tracked;
+  entry.index = frame.index;
+  entry.labels = LabelRuns(frame.tracked.labels, impl_->encoder.step());
+  entry.tracked = frame.tracked;
   entry.tracked.labels = {};
-  entry.fps = fps;
+  entry.fps = frame.fps;
   const std::lock_guard lock(impl_->mutex);
   impl_->entries.push_back(std::move(entry));
 }

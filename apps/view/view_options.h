@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
-#include "apps/track/track_options.h"
 #include "apps/view/web_server.h"
 
 namespace CLI {
@@ -9,6 +9,16 @@ class App;
 }
 
 namespace depthmocap {
+
+// The page that shows the tracking.
+struct ViewOptions {
+  bool on = false;
+  std::string address = "127.0.0.1";
+  int port = 8010;
+  std::string token;
+  int vmc_listen = 0;                  // UDP port; 0 = none
+  std::filesystem::path folder = ".";  // for what the page records and calibrates
+};
 
 // --view-port and its like, for commands that can show a page.
 void addViewOptions(CLI::App& command, ViewOptions& options);

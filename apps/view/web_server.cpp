@@ -16,10 +16,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/view/background.h"
 #include "apps/view/request_guard.h"
 #include "apps/view/stream_hub.h"
 #include "depthmocap/error.h"
+#include "libtracker/core/background.h"
 #include "libtracker/core/check.h"
 
 namespace depthmocap {

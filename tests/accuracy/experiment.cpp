@@ -15,8 +15,6 @@
 #include <string>
 #include <utility>
 
-#include "apps/track/look_ahead.h"
-#include "apps/track/run_stats.h"
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
@@ -28,6 +26,7 @@
 #include "libtracker/body/sample_surface.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
+#include "libtracker/session/pose_pipeline.h"
 #include "libtracker/tracker/alignment.h"
 #include "libtracker/tracker/measurement.h"
 #include "tests/accuracy/disturbance.h"
@@ -144,23 +143,17 @@ void experiment(const ExperimentOptions& o) {
   models.classifier = classifier;
   Tracker tracker(models, reader->info().camera, configOf(o), body);
   TrackOutputs outputs(o.track, reader->info());
-  LookAhead waiting(o.look_ahead_s);
-  const auto take = [&] {
-    while (const LookAhead::Frame* frame = waiting.next()) outputs.write(frame->depth, frame->tracked);
-  };
   RunStats stats;
+  PosePipeline pipeline(tracker, o.look_ahead_s, o.track.smooth, stats);
+  pipeline.addSink(outputs);
   DepthFrame frame;
   for (std::size_t i = 0; i < reader->frameCount(); ++i) {
     reader->read(i, frame);
     disturb(o.disturbance, frame);
     truth.give(frame.frame, *classifier, tracker);
-    const TrackedFrame& tracked = tracker.process(frame);
-    stats.addFrame(tracked);
-    waiting.add(i, frame, tracked, tracker.actor());
-    take();
+    pipeline.process(i, frame);
   }
-  waiting.finish();
-  take();
+  pipeline.finish();
   outputs.finish(tracker.actor());
   if (!o.track.stats.empty()) stats.write(o.track.stats, 0, !body);
 }

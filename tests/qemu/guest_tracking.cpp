@@ -8,10 +8,10 @@
 #include <map>
 #include <thread>
 
-#include "apps/track/live_loop.h"
 #include "apps/track/tracker_setup.h"
 #include "libtracker/recording/recording_header.h"
 #include "libtracker/sensor/v4l2_source.h"
+#include "libtracker/session/live_session.h"
 #include "tests/qemu/feeder.h"
 
 namespace depthmocap {
@@ -20,10 +20,11 @@ namespace {
 constexpr int kPictures = 12;
 constexpr double kSameJoint_m = 1e-6;  // times are written to the microsecond
 
-class Collector : public LiveSink {
+class Collector : public FrameSink {
  public:
-  void onFrame(const DepthFrame& frame, const TrackedFrame& tracked) override {
-    joints_[frame.frame] = tracked.joints_camera;
+  void onFrame(const SessionFrame& given) override {
+    const TrackedFrame& tracked = given.tracked;
+    joints_[tracked.frame] = tracked.joints_camera;
     tracking_ += tracked.state == TrackState::Tracking ? 1 : 0;
     ++count;
   }
@@ -49,7 +50,7 @@ void trackLive(const std::string& device, const std::string& recording, const st
   std::puts("tracking: models loaded");
   Tracker live(models, source->info().camera, trackerConfig(defaults));
   Recorder recorder("/tmp/recorded", source->info(), true);
-  LiveLoop loop(*source, live, &recorder);
+  LiveSession loop(*source, live, &recorder, {});
   Collector collector;
   loop.addSink(collector);
   std::atomic<bool> fed{false};
@@ -57,7 +58,7 @@ void trackLive(const std::string& device, const std::string& recording, const st
     sendOneByOne(feeder, pictures, collector.count);
     fed = true;
   });
-  loop.run({0, [&] { return fed.load(); }});
+  loop.run([&] { return fed.load(); });
   feeding.join();
   recorder.finish(loop.figures().missing);
 

@@ -1,4 +1,4 @@
-#include "libtracker/output/one_euro.h"
+#include "libtracker/smooth/one_euro.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "libtracker/output/pose_smoother.h"
+#include "libtracker/smooth/pose_smoother.h"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/track/durations.h"
+#include "libtracker/session/durations.h"
 
 namespace depthmocap {
 

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "depthmocap/pose.h"
-#include "libtracker/output/one_euro.h"
+#include "libtracker/smooth/one_euro.h"
 
 namespace depthmocap {
 

@@ -1,4 +1,4 @@
-#include "libtracker/output/look_ahead_smoother.h"
+#include "libtracker/smooth/look_ahead_smoother.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,15 +1,13 @@
-#include "apps/track/live_loop.h"
+#include "libtracker/session/live_session.h"
 
-#include <algorithm>
+#include <chrono>
 
 namespace depthmocap {
-
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{100};     // for a frame, before looking at limits again
 constexpr std::chrono::milliseconds kStatusEvery{200};  // for sinks
-constexpr std::chrono::seconds kRateWindow{1};
-constexpr double kGrace_s = 1.0;  // a camera that sends nothing ends a limited run so much later
+constexpr double kGrace_s = 1.0;                        // a camera that sends nothing ends a limited run so much later
 
 // However the tracker ends: a capture thread that waits for it must not wait for ever.
 class CloseAtEnd {
@@ -29,67 +27,59 @@ double secondsSince(SensorClock::time_point start) {
 
 }  // namespace
 
-LiveLoop::LiveLoop(DepthSource& source, Tracker& tracker, Recorder* recorder)
-    : source_(source), tracker_(tracker), recorder_(recorder) {}
+LiveSession::LiveSession(DepthSource& source, Tracker& tracker, Recorder* recorder, const LiveSessionOptions& options)
+    : source_(source), recorder_(recorder), options_(options), pipeline_(tracker, 0.0, options.smooth, stats_) {}
 
-void LiveLoop::run(const LiveLimits& limits) {
+void LiveSession::run(const std::function<bool()>& stopped) {
   const SensorClock::time_point start = SensorClock::now();
-  const bool limited = limits.seconds > 0 && !source_.waitsForReader();
+  const bool limited = options_.seconds > 0 && !source_.waitsForReader();
   capture_ = std::make_unique<Capture>(
-      source_, [this](SensorFrame& frame) { return hand(frame); }, [this] { newest_.close(); }, limits.seconds);
+      source_, [this](SensorFrame& frame) { return hand(frame); }, [this] { newest_.close(); }, options_.seconds);
   const CloseAtEnd close_at_end(newest_);
   SensorFrame frame;
-  while (!newest_.finished() && !(limits.stopped && limits.stopped())) {
+  while (!newest_.finished() && !(stopped && stopped())) {
     if (newest_.take(frame, kPatience)) track(frame);
     if (SensorClock::now() - last_told_ >= kStatusEvery) tellStatus();
-    if (limited && secondsSince(start) > limits.seconds + kGrace_s) break;
+    if (limited && secondsSince(start) > options_.seconds + kGrace_s) break;
   }
   newest_.close();
   capture_->stop();
+  pipeline_.finish();
   tellStatus();
   collectFigures();
 }
 
 // On the capture thread. The recording gets the frame first: the tracker may keep its memory.
-bool LiveLoop::hand(SensorFrame& frame) {
+bool LiveSession::hand(SensorFrame& frame) {
   if (recorder_ != nullptr) recorder_->push(frame);
   if (source_.waitsForReader()) return newest_.putWhenTaken(frame);
   newest_.put(frame);
   return true;
 }
 
-void LiveLoop::track(const SensorFrame& frame) {
-  const TrackedFrame& tracked = tracker_.process(frame.depth);
-  for (LiveSink* sink : sinks_) sink->onFrame(frame.depth, tracked);
-  const SensorClock::time_point now = SensorClock::now();
-  status_.latency_ms = std::chrono::duration<double, std::milli>(now - frame.taken).count();
+void LiveSession::track(SensorFrame& frame) {
+  status_.state = pipeline_.process(static_cast<std::size_t>(status_.tracked), frame.depth);
+  status_.latency_ms = millisecondsSince(frame.taken);
   figures_.latency.add(status_.latency_ms);
-  status_.state = tracked.state;
   ++status_.tracked;
-  recent_.push_back(now);
-  recent_.erase(recent_.begin(),
-                std::find_if(recent_.begin(), recent_.end(), [now](auto time) { return now - time <= kRateWindow; }));
 }
 
-LiveStatus LiveLoop::status() const {
-  LiveStatus status = status_;
+SessionStatus LiveSession::status() {
+  SessionStatus status = status_;
   status.camera = capture_->status();
   if (recorder_ != nullptr) status.recording = recorder_->status();
   status.replaced = newest_.replaced();
-  const SensorClock::time_point now = SensorClock::now();
-  status.fps = static_cast<double>(
-      std::count_if(recent_.begin(), recent_.end(), [now](auto time) { return now - time <= kRateWindow; }));
+  status.fps = pipeline_.fps();
   return status;
 }
 
-void LiveLoop::tellStatus() {
+void LiveSession::tellStatus() {
   last_told_ = SensorClock::now();
-  const LiveStatus now = status();
-  for (LiveSink* sink : sinks_) sink->onStatus(now);
+  pipeline_.tell(status());
 }
 
-void LiveLoop::collectFigures() {
-  const LiveStatus end = status();
+void LiveSession::collectFigures() {
+  const SessionStatus end = status();
   figures_.received = end.camera.received;
   figures_.replaced = end.replaced;
   figures_.missing = end.camera.missing;

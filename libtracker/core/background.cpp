@@ -1,4 +1,4 @@
-#include "apps/view/background.h"
+#include "libtracker/core/background.h"
 
 #include <sched.h>
 #include <sys/resource.h>

@@ -1,18 +1,11 @@
-#include "apps/track/look_ahead.h"
+#include "libtracker/session/look_ahead.h"
 
-#include <CLI/CLI.hpp>
 #include <utility>
 
 #include "libtracker/core/check.h"
 #include "libtracker/tracker/pose_fields.h"
 
 namespace depthmocap {
-namespace {
-
-constexpr double kMost_s = 1.0;
-
-}  // namespace
-
 void LookAhead::add(std::size_t index, DepthFrame& depth, const TrackedFrame& tracked, const Actor& actor) {
   if (spare_.empty()) spare_.emplace_back();
   waiting_.splice(waiting_.end(), spare_, spare_.begin());
@@ -36,14 +29,6 @@ const LookAhead::Frame* LookAhead::next() {
   Frame& frame = spare_.back();
   if (*q != frame.tracked.q) setPose(*q, frame.actor, fk_, frame.tracked);
   return &frame;
-}
-
-void addLookAheadOption(CLI::App& command, double& seconds) {
-  command
-      .add_option("--look-ahead", seconds,
-                  "Each pose is steadied by the frames up to so many seconds before and after it; 0 = off, as live is")
-      ->check(CLI::Range(0.0, kMost_s))
-      ->capture_default_str();
 }
 
 }  // namespace depthmocap

@@ -5,12 +5,8 @@
 #include "depthmocap/actor.h"
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/tracked_frame.h"
-#include "libtracker/output/look_ahead_smoother.h"
 #include "libtracker/skeleton/forward_kinematics.h"
-
-namespace CLI {
-class App;
-}
+#include "libtracker/smooth/look_ahead_smoother.h"
 
 namespace depthmocap {
 
@@ -43,10 +39,7 @@ class LookAhead {
   ForwardKinematics fk_;
 };
 
-// --look-ahead; `seconds` keeps its value unless it is given.
-void addLookAheadOption(CLI::App& command, double& seconds);
-
-// Best for the mean error of rendered walks, runs and kicks that does not flatten punches.
+// [s] Best for the mean error of rendered walks, runs and kicks among the widths that do not flatten punches.
 inline constexpr double kLookAhead_s = 0.13;
 
 }  // namespace depthmocap

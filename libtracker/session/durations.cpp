@@ -1,4 +1,4 @@
-#include "apps/track/durations.h"
+#include "libtracker/session/durations.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "apps/track/run_stats.h"
+#include "libtracker/session/run_stats.h"
 
 #include <array>
 #include <nlohmann/json.hpp>

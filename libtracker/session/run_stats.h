@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "apps/track/durations.h"
-#include "apps/track/live_figures.h"
 #include "depthmocap/tracked_frame.h"
+#include "libtracker/session/durations.h"
+#include "libtracker/session/live_figures.h"
 
 namespace depthmocap {
 

@@ -1,4 +1,4 @@
-#include "apps/track/look_ahead.h"
+#include "libtracker/session/look_ahead.h"
 
 #include <vector>
 
