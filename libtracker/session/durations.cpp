@@ -18,6 +18,7 @@ std::uint64_t rankOf(double share, std::uint64_t count) {
 void Durations::add(double ms) {
   ++count_;
   sum_ += ms;
+  max_ = std::max(max_, ms);
   if (keep_ == Keep::All) {
     all_.push_back(ms);
     return;
@@ -38,11 +39,11 @@ double Durations::binned(double share) const {
 Durations::Summary Durations::summary() const {
   if (count_ == 0) return {};
   const double mean = sum_ / static_cast<double>(count_);
-  if (keep_ == Keep::Binned) return {binned(0.50), binned(0.95), binned(0.99), mean};
+  if (keep_ == Keep::Binned) return {binned(0.50), binned(0.95), binned(0.99), mean, max_};
   std::vector<double> sorted = all_;
   std::sort(sorted.begin(), sorted.end());
   const auto ranked = [&](double share) { return sorted[rankOf(share, count_)]; };
-  return {ranked(0.50), ranked(0.95), ranked(0.99), mean};
+  return {ranked(0.50), ranked(0.95), ranked(0.99), mean, max_};
 }
 
 }  // namespace depthmocap

@@ -21,6 +21,7 @@ class Durations {
     double p95 = 0;
     double p99 = 0;
     double mean = 0;
+    double max = 0;
   };
   [[nodiscard]] Summary summary() const;
 
@@ -31,6 +32,7 @@ class Durations {
   Keep keep_;
   std::uint64_t count_ = 0;
   double sum_ = 0;
+  double max_ = 0;
   std::vector<double> all_;
   std::array<std::uint32_t, kBins> bins_{};
 };

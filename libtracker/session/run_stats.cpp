@@ -24,7 +24,7 @@ constexpr std::array<std::pair<const char*, double StageTimes::*>, kStageCount> 
 
 ordered_json summaryOf(const Durations& durations) {
   const Durations::Summary s = durations.summary();
-  return {{"p50", s.p50}, {"p95", s.p95}, {"p99", s.p99}, {"mean", s.mean}};
+  return {{"p50", s.p50}, {"p95", s.p95}, {"p99", s.p99}, {"mean", s.mean}, {"max", s.max}};
 }
 
 ordered_json liveSummary(const LiveFigures& live) {

@@ -88,8 +88,7 @@ void TrackMemory::forget(const std::optional<Eigen::Vector3d>& wanted_camera) {
 }
 
 void TrackMemory::use(const Actor& actor) {
-  first_size_ = {actor, true, policy_.adapt_s};
-  forget(std::nullopt);
+  first_size_ = size_ = {actor, true, policy_.adapt_s};
 }
 
 }  // namespace depthmocap

@@ -30,7 +30,7 @@ class TrackMemory {
 
   // Forgets the actor; the next one is the person nearest to `wanted_camera` [m], or anybody.
   void forget(const std::optional<Eigen::Vector3d>& wanted_camera);
-  // The same, with another body, whose size is fixed.
+  // The same actor has been measured: tracking goes on with this body, whose size is fixed.
   void use(const Actor& actor);
 
   [[nodiscard]] const SizeAdapter& size() const { return size_; }

@@ -38,8 +38,9 @@ class Tracker {
   void reset();
   // The same, and the next frame looks for the person nearest to this point [m], camera frame.
   void lockOn(const Eigen::Vector3d& p_camera);
-  // The same with another body, for example that of a calibration that has just ended. Nothing is loaded: as cheap as
-  // reset(). Poses are still searched for with the proportions that the tracker began with, at the new body's size.
+  // Between frames: the same person with another body, for example that of a calibration that has just ended. Tracking
+  // goes on; nothing is loaded or searched for, so no frame waits. The body keeps its size, also after reset(). Poses are
+  // still looked up with the proportions that the tracker began with, at the new body's size.
   void use(const Actor& actor);
 
   // The body in use.
