@@ -10,6 +10,7 @@ namespace depthmocap {
 void addBodyTemplatesCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app);
 void addCamerasCommand(CLI::App& app);
+void addConfigTableCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addForestCommand(CLI::App& app);
 void addIkCommand(CLI::App& app);

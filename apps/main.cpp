@@ -29,6 +29,7 @@ void addCommands(CLI::App& app) {
   addIkCommand(app);
   addShapeSpaceCommand(app);
   addBodyTemplatesCommand(app);
+  addConfigTableCommand(app);
   addServeCommand(app);
   addSynthesizeCommand(app);
 }

@@ -17,6 +17,7 @@
 #include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/shipped_files.h"
 #include "libtracker/markers/find_markers.h"
@@ -79,15 +80,12 @@ Actor withStature(const Actor& actor, double stature_m) {
 }  // namespace
 
 void CalibratorConfig::validate() const {
-  const auto require = [](bool holds, const char* rule) {
-    if (!holds) throw Error(rule, "calibration");
-  };
   check.validate();
-  require(frames >= 1, "frames must be at least 1");
-  require(!stature_m || (*stature_m >= 1.0 && *stature_m <= 2.3), "stature_m must lie between 1.0 and 2.3");
-  require(surface_points >= 100, "surface_points must be at least 100");
-  require(points_per_part >= 5, "points_per_part must be at least 5");
-  require(threads >= 1, "threads must be at least 1");
+  checkConfig(frames >= 1, "CalibratorConfig", "frames", frames, "at least 1");
+  checkConfig(!stature_m || (*stature_m >= 1.0 && *stature_m <= 2.3), "CalibratorConfig", "stature_m",
+              stature_m.value_or(0), "from 1.0 to 2.3");
+  checkConfig(points_per_part >= 5, "CalibratorConfig", "points_per_part", points_per_part, "at least 5");
+  checkConfig(threads >= 1, "CalibratorConfig", "threads", threads, "at least 1");
 }
 
 struct Calibrator::Impl {

@@ -20,7 +20,6 @@ struct CalibratorConfig {
   TPoseCheckConfig check;
   JointSolveConfig solve;
   std::optional<double> stature_m;  // [m] (1.0 .. 2.3) known: fixes the scale
-  int surface_points = 1500;        // (>= 100) of the template
   int points_per_part = 30;         // (>= 5) of the cloud of one frame
   int threads = 2;                  // (>= 1)
   bool any_pose = false;            // no T-pose is asked for: solveWithoutTPose() will measure

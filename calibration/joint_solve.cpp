@@ -13,6 +13,13 @@
 namespace depthmocap {
 namespace {
 
+// Weight of the shape space term with residuals in centimetres (gamma of the method, section A (6)).
+constexpr double kShapeSpaceWeight = 0.5;
+// Deviation of marker offsets about those of the average body [m].
+constexpr double kOffsetDeviation_m = 0.015;
+// Deviation of girths about those of the stature, as a factor.
+constexpr double kGirthDeviation = 0.15;
+
 using Eigen::Vector3d;
 
 constexpr double kCentimetre = 0.01;    // unit of the shape space's residuals
@@ -41,12 +48,12 @@ Eigen::Matrix<double, kOffsetCount, kBoneLengthCount> averageOffsets() {
 // go with the stature.
 class ShapeCost : public ceres::SizedCostFunction<2 * kBoneLengthCount + kGirthCount, kShapeCount> {
  public:
-  ShapeCost(const BodyTemplate& body, const ShapeSpace& space, const JointSolveConfig& config) {
+  ShapeCost(const BodyTemplate& body, const ShapeSpace& space) {
     J_.setZero();
     Eigen::Matrix<double, kBoneLengthCount, kBoneLengthCount> off;
     off.setIdentity();
     off -= space.H * space.H.transpose();
-    J_.topLeftCorner<kBoneLengthCount, kBoneLengthCount>() = std::sqrt(config.gamma) / kCentimetre * off;
+    J_.topLeftCorner<kBoneLengthCount, kBoneLengthCount>() = std::sqrt(kShapeSpaceWeight) / kCentimetre * off;
     for (Eigen::Index k = 0; k < space.deviation.size(); ++k) {
       J_.row(kBoneLengthCount + k).head<kBoneLengthCount>() = space.H.col(k).transpose() / space.deviation[k];
     }
@@ -55,8 +62,8 @@ class ShapeCost : public ceres::SizedCostFunction<2 * kBoneLengthCount + kGirthC
       girth[k] = body.girthOf(statureOf(boneLengths(LengthVector(LengthVector::Unit(k)))));
     }
     for (int g = 0; g < kGirthCount; ++g) {
-      J_.row(2 * kBoneLengthCount + g).head<kBoneLengthCount>() = -girth / config.girth_deviation;
-      J_(2 * kBoneLengthCount + g, kBoneLengthCount + g) = 1.0 / config.girth_deviation;
+      J_.row(2 * kBoneLengthCount + g).head<kBoneLengthCount>() = -girth / kGirthDeviation;
+      J_(2 * kBoneLengthCount + g, kBoneLengthCount + g) = 1.0 / kGirthDeviation;
     }
     ShapeVector mean = ShapeVector::Zero();
     mean.head<kBoneLengthCount>() = space.mean;
@@ -81,8 +88,7 @@ class ShapeCost : public ceres::SizedCostFunction<2 * kBoneLengthCount + kGirthC
 // Marker offsets about those of the average body of these lengths.
 class OffsetCost : public ceres::SizedCostFunction<kOffsetCount, kShapeCount, kOffsetCount> {
  public:
-  explicit OffsetCost(const JointSolveConfig& config)
-      : average_(averageOffsets() / config.offset_deviation_m), scale_(1.0 / config.offset_deviation_m) {}
+  OffsetCost() : average_(averageOffsets() / kOffsetDeviation_m), scale_(1.0 / kOffsetDeviation_m) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Eigen::Map<const LengthVector> s(parameters[0]);
     const Eigen::Map<const OffsetVector> v(parameters[1]);
@@ -206,8 +212,8 @@ class JointProblem {
       problem.AddResidualBlock(new PoseCost(body_, observations_[t], matches_[t], bones_, config_), nullptr,
                                shape_.data(), offsets_.data(), poses_[t].data());
     }
-    problem.AddResidualBlock(new ShapeCost(body_, space_, config_), nullptr, shape_.data());
-    problem.AddResidualBlock(new OffsetCost(config_), nullptr, shape_.data(), offsets_.data());
+    problem.AddResidualBlock(new ShapeCost(body_, space_), nullptr, shape_.data());
+    problem.AddResidualBlock(new OffsetCost(), nullptr, shape_.data(), offsets_.data());
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.max_num_iterations = config_.iterations;

@@ -11,18 +11,10 @@ namespace depthmocap {
 // Weights of the joint solve. Every term is a squared residual over its deviation. The weights of a set of frames in
 // one pose add up to 1, because what the body and the classifier do to them is the same in each.
 struct JointSolveConfig {
-  double gamma = 0.5;                   // (>= 0) weight of the shape space, residuals in centimetres
-  double marker_deviation_m = 0.025;    // [m] (> 0)
-  double surface_deviation_m = 0.012;   // [m] (> 0) beyond the paper: cloud to surface
-  double surface_points = 80;           // (>= 0) the cloud counts as this many independent points; 0 = no such term
-  double boundary_deviation_m = 0.012;  // [m] (> 0) beyond the paper: where parts meet
-  double waist_deviation_m = 0.025;     // [m] (> 0) the same of the torso's lower end, which no joint marks
-  double end_deviation_m = 0.008;       // [m] (> 0) beyond the paper: the outline of crown, hands and feet
-  double offset_deviation_m = 0.015;    // [m] (> 0) of marker offsets about the average body's
-  double girth_deviation = 0.15;        // (> 0) of girths about those of the stature
-  int rounds = 5;                       // (>= 1) of matching the cloud and solving
-  int iterations = 6;                   // (>= 1) of Levenberg-Marquardt in each
-  int threads = 1;                      // (>= 1)
+  double surface_points = 80;  // (>= 0) the cloud counts as this many independent points; 0 = no such term
+  int rounds = 5;              // (>= 1) of matching the cloud and solving
+  int iterations = 6;          // (>= 1) of Levenberg-Marquardt in each
+  int threads = 1;             // (>= 1)
 };
 
 struct JointSolution {

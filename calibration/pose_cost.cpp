@@ -5,6 +5,17 @@
 namespace depthmocap {
 namespace {
 
+// Expected distance of a seen marker from that of the body [m]; chosen by hand.
+constexpr double kMarkerDeviation_m = 0.025;
+// Expected distance of the depth points from the surface [m]; the term is ours.
+constexpr double kSurfaceDeviation_m = 0.012;
+// Expected distance of the boundary between two parts from its plane on the body [m]; the term is ours.
+constexpr double kBoundaryDeviation_m = 0.012;
+// The same of the lower end of the torso, which no joint marks [m].
+constexpr double kWaistDeviation_m = 0.025;
+// Expected distance of the outline from crown, hands and feet [m]; the term is ours.
+constexpr double kEndDeviation_m = 0.008;
+
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // A boundary's place on the skeleton: rigid with a bone and linear in the bone lengths.
@@ -116,7 +127,7 @@ bool PoseCost::Evaluate(double const* const* parameters, double* residuals, doub
 void PoseCost::evaluateMarkers(Evaluation& e) const {
   for (int part = 0; part < kPartCount; ++part) {
     const double scale =
-        std::sqrt(observation_.weight * observation_.markers_world.confidence[part]) / config_.marker_deviation_m;
+        std::sqrt(observation_.weight * observation_.markers_world.confidence[part]) / kMarkerDeviation_m;
     const Bone bone = marker_bones_[static_cast<std::size_t>(part)];
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d direction = Eigen::Vector3d::Unit(axis);
@@ -133,7 +144,7 @@ void PoseCost::evaluateCloud(Evaluation& e) const {
   if (matches_.cloud.empty()) return;
   const double share = config_.surface_points / static_cast<double>(matches_.cloud.size());
   for (const CloudMatch& match : matches_.cloud) {
-    const double scale = std::sqrt(observation_.weight * share * match.weight) / config_.surface_deviation_m;
+    const double scale = std::sqrt(observation_.weight * share * match.weight) / kSurfaceDeviation_m;
     e.addRow(match.model->bone, body_.place(*match.model, e.shape), body_.placeJacobian(*match.model), match.n_world,
              match.n_world.dot(match.p_world), scale);
   }
@@ -142,7 +153,7 @@ void PoseCost::evaluateCloud(Evaluation& e) const {
 void PoseCost::evaluateBoundaries(Evaluation& e) const {
   for (const PartBoundary& boundary : observation_.boundaries) {
     const bool is_waist = boundary.place == PartBoundary::Place::Waist;
-    const double deviation = is_waist ? config_.waist_deviation_m : config_.boundary_deviation_m;
+    const double deviation = is_waist ? kWaistDeviation_m : kBoundaryDeviation_m;
     const double scale = std::sqrt(observation_.weight) / deviation;
     const BoundaryPlace at = boundaryPlace(boundary.place);
     e.addRow(at.bone, at.place * e.shape, at.place, boundary.direction, boundary.offset, scale);
@@ -150,7 +161,7 @@ void PoseCost::evaluateBoundaries(Evaluation& e) const {
 }
 
 void PoseCost::evaluateEnds(Evaluation& e) const {
-  const double scale = std::sqrt(observation_.weight) / config_.end_deviation_m;
+  const double scale = std::sqrt(observation_.weight) / kEndDeviation_m;
   for (const EndMatch& end : matches_.ends) {
     e.addRow(end.model.bone, body_.place(end.model, e.shape), body_.placeJacobian(end.model), end.direction, end.offset,
              scale);

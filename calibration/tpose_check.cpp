@@ -9,6 +9,7 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/config_fields.h"
 
 namespace depthmocap {
 namespace {
@@ -115,12 +116,11 @@ TPoseVerdict checkPlace(const BodyOutline& outline, const TPoseCheckConfig& conf
 }  // namespace
 
 void TPoseCheckConfig::validate() const {
-  const auto require = [](bool holds, const char* rule) {
-    if (!holds) throw Error(rule, "T-pose check");
-  };
-  require(tolerance_rad > 0 && tolerance_rad < 0.8, "tolerance_rad must lie between 0 and 0.8");
-  require(min_distance_m > 0 && max_distance_m > min_distance_m, "min_distance_m must be below max_distance_m");
-  require(min_stature_m > 0 && max_stature_m > min_stature_m, "min_stature_m must be below max_stature_m");
+  const char* name = "TPoseCheckConfig";
+  checkConfig(tolerance_rad > 0 && tolerance_rad < 0.8, name, "tolerance_rad", tolerance_rad, "between 0 and 0.8");
+  checkConfig(min_distance_m > 0, name, "min_distance_m", min_distance_m, "above 0");
+  checkConfig(max_distance_m > min_distance_m, name, "max_distance_m", max_distance_m, "above min_distance_m");
+  checkConfig(max_stature_m > min_stature_m, name, "max_stature_m", max_stature_m, "above min_stature_m");
 }
 
 BodyOutline measureOutline(const std::vector<Eigen::Vector3f>& points) {

@@ -46,6 +46,9 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
       ->delimiter(',')
       ->check(CLI::IsMember(optionalParts()))
       ->type_name("PART,...");
+  command.add_option("--config", o.config, "Parameters of the tracker, JSON (docs/reference/config.md), over --method")
+      ->type_name("C.json");
+  command.add_option("--save-config", o.save_config, "Write the parameters in use, JSON")->type_name("C.json");
   command.add_option("--stature", o.assumed_stature_m, "Stature to start from without --actor [m]")
       ->check(CLI::Range(1.0, 2.2));
   command.add_option("--threads", o.threads, "Threads; the results do not depend on it")

@@ -30,6 +30,8 @@ struct TrackOptions {
   std::filesystem::path preview;
   std::filesystem::path contact_sheet;
   std::filesystem::path stats;
+  std::filesystem::path config;       // of the tracker, read
+  std::filesystem::path save_config;  // of the tracker, written
   int threads = 2;
   std::string method = "full";
   std::vector<std::string> without;  // parts of the method, see leaveOut()

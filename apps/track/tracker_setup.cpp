@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "libtracker/tracker/config_file.h"
 #include "libtracker/tracker/leave_out.h"
 
 namespace depthmocap {
@@ -18,8 +19,10 @@ std::optional<Actor> actorOf(const TrackOptions& options) {
 TrackerConfig trackerConfig(const TrackOptions& options) {
   TrackerConfig config = options.method == "paper" ? paperConfig() : TrackerConfig{};
   for (const std::string& part : options.without) leaveOut(part, config);
+  if (!options.config.empty()) readConfigFile(options.config, config);
   config.threads = options.threads;
   if (options.assumed_stature_m > 0) config.policy.assumed_stature_m = options.assumed_stature_m;
+  if (!options.save_config.empty()) writeConfigFile(options.save_config, config);
   return config;
 }
 

@@ -25,6 +25,9 @@
 namespace depthmocap {
 namespace {
 
+// Largest body of a POST [bytes].
+constexpr std::size_t kMostBodyBytes = 64 * 1024;
+
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
@@ -98,7 +101,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kMaxHeaderBytes);
-    parser_->body_limit(server_.config.max_body_bytes);
+    parser_->body_limit(kMostBodyBytes);
     stream_.expires_after(kRequestTime);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code failure, std::size_t) { self->received(failure); });

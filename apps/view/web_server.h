@@ -22,8 +22,7 @@ struct WebServerConfig {
   // Has to be shown by every request where the address is no loopback: ?token=... or Authorization: Bearer ...
   // Empty: none is asked for.
   std::string token = {};
-  int max_connections = 32;                // (>= 1) more are answered 503
-  std::size_t max_body_bytes = 64 * 1024;  // of a POST
+  int max_connections = 32;  // (>= 1) more are answered 503
 };
 
 // Serves HTTP and WebSocket (Boost.Beast) on a thread of its own. Everything that a client can make grow is bounded:

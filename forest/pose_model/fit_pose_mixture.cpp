@@ -6,6 +6,7 @@
 
 #include "depthmocap/error.h"
 #include "forest/pose_model/pose_mixture.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/local_prior.h"
@@ -111,10 +112,11 @@ PoseMixture::Component fitComponent(const Poses& poses, const std::vector<std::s
 }  // namespace
 
 void PoseMixtureConfig::validate() const {
-  if (components < 1) throw Error("components must be at least 1", "PoseMixtureConfig");
-  if (min_poses <= PoseMixture::kDims) throw Error("min_poses must be more than 10", "PoseMixtureConfig");
-  if (iterations < 1) throw Error("iterations must be at least 1", "PoseMixtureConfig");
-  if (threads < 1) throw Error("threads must be at least 1", "PoseMixtureConfig");
+  const char* name = "PoseMixtureConfig";
+  checkConfig(components >= 1, name, "components", components, "at least 1");
+  checkConfig(min_poses > PoseMixture::kDims, name, "min_poses", min_poses, "above 10");
+  checkConfig(iterations >= 1, name, "iterations", iterations, "at least 1");
+  checkConfig(threads >= 1, name, "threads", threads, "at least 1");
 }
 
 PoseMixture fitPoseMixture(const PoseDatabase& database, const PoseMixtureConfig& config) {

@@ -10,6 +10,7 @@
 #include "depthmocap/error.h"
 #include "forest/pose_model/network_trainer.h"
 #include "forest/pose_model/pose_mixture.h"
+#include "libtracker/core/config_fields.h"
 
 namespace depthmocap {
 namespace {
@@ -156,19 +157,17 @@ PoseCoder learnVariational(Lessons lessons, const PoseLearningConfig& config, Ra
 }  // namespace
 
 void PoseLearningConfig::validate() const {
-  const auto need = [](bool holds, const char* rule) {
-    if (!holds) throw Error(rule, "PoseLearningConfig");
-  };
-  need(components >= 1, "components must be at least 1");
-  need(width >= 1, "width must be at least 1");
-  need(code >= 1 && code < kShapeDofCount, "code must be 1 .. 31");
-  need(latent >= 1 && latent < kShapeDofCount, "latent must be 1 .. 31");
-  need(noise >= 0, "noise must not be negative");
-  need(kl_weight > 0, "kl_weight must be positive");
-  need(epochs >= 1, "epochs must be at least 1");
-  need(batch >= 1, "batch must be at least 1");
-  need(learning_rate > 0, "learning_rate must be positive");
-  need(threads >= 1, "threads must be at least 1");
+  const char* name = "PoseLearningConfig";
+  checkConfig(components >= 1, name, "components", components, "at least 1");
+  checkConfig(width >= 1, name, "width", width, "at least 1");
+  checkConfig(code >= 1 && code < kShapeDofCount, name, "code", code, "from 1 to 31");
+  checkConfig(latent >= 1 && latent < kShapeDofCount, name, "latent", latent, "from 1 to 31");
+  checkConfig(noise >= 0, name, "noise", noise, "at least 0");
+  checkConfig(kl_weight > 0, name, "kl_weight", kl_weight, "above 0");
+  checkConfig(epochs >= 1, name, "epochs", epochs, "at least 1");
+  checkConfig(batch >= 1, name, "batch", batch, "at least 1");
+  checkConfig(learning_rate > 0, name, "learning_rate", learning_rate, "above 0");
+  checkConfig(threads >= 1, name, "threads", threads, "at least 1");
 }
 
 LearnedPoses learnPoses(const PoseDatabase& database, const PoseLearningConfig& config,

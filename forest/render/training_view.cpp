@@ -11,6 +11,11 @@
 namespace depthmocap {
 namespace {
 
+// Share of the pictures that a Kinect v2 takes (512x424).
+constexpr double kKinect2Share = 0.3;
+// Share of the pictures that a Kinect v1 takes at 320x240; the rest is 640x480.
+constexpr double kHalfSizeShare = 0.5;
+
 Eigen::AlignedBox3d boundsOf(const std::vector<Eigen::Vector3f>& vertices) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& v : vertices) box.extend(v);
@@ -63,8 +68,8 @@ TriangleMesh TrainingViewRenderer::drawProps(const Skeleton& skeleton, const Pos
 
 void TrainingViewRenderer::drawCamera(Random& random, TrainingView& view) const {
   const double choice = random.uniform();
-  view.sensor = choice < config_.kinect2_share ? SensorKind::Kinect2 : SensorKind::Kinect1;
-  const bool half_size = view.sensor == SensorKind::Kinect1 && choice < config_.kinect2_share + config_.half_size_share;
+  view.sensor = choice < kKinect2Share ? SensorKind::Kinect2 : SensorKind::Kinect1;
+  const bool half_size = view.sensor == SensorKind::Kinect1 && choice < kKinect2Share + kHalfSizeShare;
   view.camera = sensorCamera(view.sensor, half_size);
   view.camera.fx *= random.uniform(config_.min_focal_scale, config_.max_focal_scale);
   view.camera.fy = view.camera.fx;

@@ -35,8 +35,6 @@ struct TrainingViewConfig {
   double carried_share = 0.12;       // [0, 1] of the pictures with a bag or something in a hand
   double obstacle_share = 0.12;      // [0, 1] of the pictures with something between actor and camera
   double noise_share = 0.9;          // [0, 1] of the pictures with sensor noise
-  double kinect2_share = 0.3;        // [0, 1] of the pictures 512x424
-  double half_size_share = 0.5;      // [0, 1] of the pictures 320x240; the rest is 640x480
   double min_focal_scale = 0.78;     // times the nominal focal length
   double max_focal_scale = 1.05;
 };

@@ -10,6 +10,7 @@
 #include "forest/train/training_checkpoint.h"
 #include "forest/train/tree_trainer.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/config_fields.h"
 
 namespace depthmocap {
 namespace {
@@ -43,8 +44,8 @@ void checkSameStart(const std::vector<TrainedTree>& trees, Communicator& ranks) 
 
 void ForestTrainingOptions::validate() const {
   tree.validate();
-  if (trees < 1 || trees > 64) throw Error(fmt::format("{} does not satisfy: 1 .. 64", trees), "trees");
-  if (threads < 1) throw Error(fmt::format("{} does not satisfy: >= 1", threads), "threads");
+  checkConfig(trees >= 1 && trees <= 64, "ForestTrainingOptions", "trees", trees, "from 1 to 64");
+  checkConfig(threads >= 1, "ForestTrainingOptions", "threads", threads, "at least 1");
   if (resume && checkpoint.empty()) throw Error("nothing to resume from", "resume", "name the checkpoint");
 }
 

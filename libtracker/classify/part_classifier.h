@@ -1,9 +1,11 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
 #include "libtracker/core/classified_pixels.h"
+#include "libtracker/core/config_fields.h"
 
 namespace depthmocap {
 
@@ -14,6 +16,9 @@ struct ClassifyConfig {
   bool simd = true;  // use the processor's vector instructions where it has them; the result is the same
   // (>= 0, not all 0) what is known of the side that is seen before the image is looked at, at any scale
   FacingShares facing_prior = {1, 1, 1, 1};
+
+  std::vector<ConfigField> fields();  // those that a user may choose
+  void validate() const;
 };
 
 // Stage (1): which body part does each pixel of the actor belong to? The tracker knows this interface only;

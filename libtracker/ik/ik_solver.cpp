@@ -7,6 +7,7 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/ik/classic_solvers.h"
 #include "libtracker/ik/pose_problem.h"
 #include "libtracker/skeleton/joint_limits.h"
@@ -42,10 +43,9 @@ struct Candidate {
 
 void IkConfig::validate() const {
   if (method != IkMethod::Lm && prior != IkPrior::None) throw Error("prior needs the method lm", "IkConfig");
-  if (!(weight_m >= 0)) throw Error("weight_m must not be negative", "IkConfig");
-  if (starts < 1) throw Error("starts must be at least 1", "IkConfig");
-  if (lm.max_iterations < 1) throw Error("lm.max_iterations must be at least 1", "IkConfig");
-  if (!(lm.tau > 0)) throw Error("lm.tau must be positive", "IkConfig");
+  checkConfig(weight_m >= 0, "IkConfig", "weight_m", weight_m, "at least 0");
+  checkConfig(starts >= 1, "IkConfig", "starts", starts, "at least 1");
+  checkConfig(lm.max_iterations >= 1, "IkConfig", "lm.max_iterations", lm.max_iterations, "at least 1");
 }
 
 struct IkSolver::Impl {

@@ -7,6 +7,13 @@
 namespace depthmocap {
 namespace {
 
+// First damping over the largest diagonal entry of J^T J; chosen by hand.
+constexpr double kFirstDamping = 1e-3;
+// The solve stops at a shorter step (epsilon_2 of the method).
+constexpr double kStepTolerance = 1e-7;
+// The solve stops where a step lowers |E|^2 by a smaller share.
+constexpr double kGainTolerance = 1e-5;
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -56,13 +63,13 @@ LmSummary levenbergMarquardt(LeastSquaresProblem& problem, const LmConfig& confi
   summary.energy = 0.5 * E.squaredNorm();
   Model model;
   model.build(J, E);
-  double mu = config.tau * std::max(1e-12, model.A.diagonal().maxCoeff());
+  double mu = kFirstDamping * std::max(1e-12, model.A.diagonal().maxCoeff());
   double nu = 2.0;
   while (summary.iterations < config.max_iterations) {
     ++summary.iterations;
     const VectorXd x_new = (x + dampedStep(model, mu, x, lower, upper)).cwiseMax(lower).cwiseMin(upper);
     const VectorXd step = x_new - x;
-    if (!(step.norm() > config.step_tolerance)) break;  // also where the numbers left the range of double
+    if (!(step.norm() > kStepTolerance)) break;  // also where the numbers left the range of double
     problem.evaluate(x_new, E_new, nullptr);
     const double gain = summary.energy - 0.5 * E_new.squaredNorm();
     const double rho = gain / std::max(model.gainOf(step), 1e-300);
@@ -72,7 +79,7 @@ LmSummary levenbergMarquardt(LeastSquaresProblem& problem, const LmConfig& confi
       continue;
     }
     x = x_new;
-    const bool is_done = gain <= config.gain_tolerance * summary.energy;
+    const bool is_done = gain <= kGainTolerance * summary.energy;
     summary.energy -= gain;
     if (is_done) break;
     problem.evaluate(x, E, &J);

@@ -21,10 +21,7 @@ class LeastSquaresProblem {
 };
 
 struct LmConfig {
-  double tau = 1e-3;             // (> 0) first damping over the largest diagonal entry of J^T J
-  int max_iterations = 60;       // (>= 1) steps tried
-  double step_tolerance = 1e-7;  // (>= 0) stop at a shorter step (the paper's epsilon_2)
-  double gain_tolerance = 1e-5;  // (>= 0) stop where a step lowers |E|^2 by a smaller share
+  int max_iterations = 60;  // (>= 1) steps tried
 };
 
 struct LmSummary {

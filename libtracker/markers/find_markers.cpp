@@ -21,11 +21,6 @@ constexpr double kFullAreaShare = 0.3;       // of the expected surface: from he
 constexpr double kRivalPenalty = 0.5;        // confidence lost to a rival mode of equal density
 constexpr double kMinConfidence = 0.01;
 
-void require(bool holds, const char* field, double value, const char* rule) {
-  if (!holds)
-    throw Error(fmt::format("{} must be {}, not {}", field, rule, value), "MarkerConfig", "change this option");
-}
-
 Eigen::Vector3f voteAt(const PartVotes& votes, int i) {
   const auto k = static_cast<std::size_t>(i);
   return {votes.x[k], votes.y[k], votes.z[k]};
@@ -33,12 +28,21 @@ Eigen::Vector3f voteAt(const PartVotes& votes, int i) {
 
 }  // namespace
 
+std::vector<ConfigField> MarkerConfig::fields() {
+  return {
+      {"bandwidth_m", &bandwidth_m, "m", between(0, 1),
+       "Bandwidth of the MeanShift kernel, times bandwidth_scale of the part"},
+      {"min_probability", &min_probability, "", fromTo(0, 1), "A pixel votes for a part from this probability on"},
+      {"min_area_m2", &min_area_m2, "m2", above(0), "Probability-weighted surface below which a part gives no marker"},
+      {"max_iterations", &max_iterations, "", atLeast(1), "Iterations of MeanShift"},
+      {"push_in", &push_in, "", kAnyNumber, "Move the mode into the body along the viewing ray"},
+      {"bandwidth_scale", std::span<double>(bandwidth_scale), "", between(0, 100),
+       "Width of the kernel of each part, in the order of the parts"},
+  };
+}
+
 void MarkerConfig::validate() const {
-  require(bandwidth_m > 0 && bandwidth_m < 1, "bandwidth_m", bandwidth_m, "in (0, 1)");
-  require(min_probability >= 0 && min_probability <= 1, "min_probability", min_probability, "in [0, 1]");
-  require(min_area_m2 > 0, "min_area_m2", min_area_m2, "> 0");
-  require(max_iterations >= 1, "max_iterations", max_iterations, ">= 1");
-  for (const double scale : bandwidth_scale) require(scale > 0 && scale < 100, "bandwidth_scale", scale, "in (0, 100)");
+  checkFieldsOf("MarkerConfig", *this);
 }
 
 MarkerFinder::MarkerFinder(const MarkerConfig& config) : config_(config) {

@@ -5,6 +5,7 @@
 #include "depthmocap/camera_model.h"
 #include "depthmocap/marker_set.h"
 #include "libtracker/core/classified_pixels.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/markers/mean_shift.h"
 #include "libtracker/markers/voxel_votes.h"
 
@@ -21,8 +22,8 @@ struct MarkerConfig {
   // legs. All 1 is one bandwidth for every part. Index = partIndex(part). (> 0)
   std::array<double, kPartCount> bandwidth_scale{1.0, 0.8, 1.2, 1.2, 2.0, 2.0, 3.0, 3.0,
                                                  3.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0};
-  // Throws Error naming field, value and rule.
-  void validate() const;
+  std::vector<ConfigField> fields();
+  void validate() const;  // throws Error naming field, value and rule
 };
 
 // Finds at most one labelled 3D point a part: the strongest mode of the part's density over the seen surface (Comaniciu

@@ -12,13 +12,17 @@ constexpr double kMinDepth_m = 0.2;  // nearer the projection says nothing
 
 }  // namespace
 
+std::vector<ConfigField> FreeSpaceConfig::fields() {
+  return {
+      {"margin_m", &margin_m, "m", atLeast(0), "The body may reach this far into free space without a penalty"},
+      {"sigma_m", &sigma_m, "m", above(0), "Scale of the Lorentzian that weighs a violation by its size"},
+      {"weight", &weight, "", aboveUpTo(0, 1), "Weight of a small violation against a surface match"},
+      {"max_matches", &max_matches, "", fromTo(0, kMaxSurfaceMatches), "Violations per frame; 0 = off"},
+  };
+}
+
 void FreeSpaceConfig::validate() const {
-  if (!(margin_m >= 0)) throw Error("margin_m must not be negative", "free space settings");
-  if (!(sigma_m > 0)) throw Error("sigma_m must be above 0", "free space settings");
-  if (!(weight > 0 && weight <= 1)) throw Error("weight must be above 0 and at most 1", "free space settings");
-  if (max_matches < 0 || max_matches > kMaxSurfaceMatches) {
-    throw Error("max_matches must be from 0 to " + std::to_string(kMaxSurfaceMatches), "free space settings");
-  }
+  checkFieldsOf("FreeSpaceConfig", *this);
 }
 
 FreeSpaceMatcher::FreeSpaceMatcher(const FreeSpaceConfig& config) : config_(config) {

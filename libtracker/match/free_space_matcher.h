@@ -3,6 +3,7 @@
 
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/match/placed_surface.h"
 #include "libtracker/match/silhouette.h"
 #include "libtracker/skeleton/surface_match.h"
@@ -14,7 +15,8 @@ struct FreeSpaceConfig {
   double sigma_m = 0.05;   // [m] (> 0) of the Lorentzian that weighs a violation by its size
   double weight = 0.3;     // (0, 1] of a small violation, against a surface match
   int max_matches = 150;   // (0 .. kMaxSurfaceMatches) 0 = off
-  void validate() const;
+  std::vector<ConfigField> fields();
+  void validate() const;  // throws Error naming field, value and rule
 };
 
 // The other direction of the dense term: where the camera looks through to something farther away, or past the actor,

@@ -7,16 +7,18 @@
 #include "depthmocap/error.h"
 
 namespace depthmocap {
+std::vector<ConfigField> SurfaceMatchConfig::fields() {
+  return {
+      {"max_distance_m", &max_distance_m, "m", above(0), "A sample farther from its surface point has no match"},
+      {"match_sigma_m", &match_sigma_m, "m", above(0), "Expected distance of the surface from a sample of its part"},
+      {"min_probability", &min_probability, "", aboveUpTo(0, 1), "No part is held less likely"},
+      {"sigma_m", &sigma_m, "m", above(0), "Scale of the Lorentzian that weighs a match by its distance"},
+      {"max_matches", &max_matches, "", fromTo(1, kMaxSurfaceMatches), "Matches per frame"},
+  };
+}
+
 void SurfaceMatchConfig::validate() const {
-  if (!(max_distance_m > 0)) throw Error("max_distance_m must be above 0", "surface match settings");
-  if (!(min_probability > 0 && min_probability <= 1)) {
-    throw Error("min_probability must be above 0 and at most 1", "surface match settings");
-  }
-  if (!(match_sigma_m > 0)) throw Error("match_sigma_m must be above 0", "surface match settings");
-  if (!(sigma_m > 0)) throw Error("sigma_m must be above 0", "surface match settings");
-  if (max_matches < 1 || max_matches > kMaxSurfaceMatches) {
-    throw Error("max_matches must be from 1 to " + std::to_string(kMaxSurfaceMatches), "surface match settings");
-  }
+  checkFieldsOf("SurfaceMatchConfig", *this);
 }
 
 SurfaceMatcher::SurfaceMatcher(const SurfaceMatchConfig& config) : config_(config) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "depthmocap/parts.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/match/placed_surface.h"
 #include "libtracker/skeleton/surface_match.h"
 
@@ -21,7 +22,8 @@ struct SurfaceMatchConfig {
   double min_probability = 0.02;  // (0, 1] no part is held less likely: the classifier may be wrong
   double sigma_m = 0.02;          // [m] (> 0) of the Lorentzian that weighs a match by its distance
   int max_matches = 450;          // (1 .. kMaxSurfaceMatches)
-  void validate() const;
+  std::vector<ConfigField> fields();
+  void validate() const;  // throws Error naming field, value and rule
 };
 
 // Pairs each measured point with the point of the placed surface that is the most likely by its distance and by the

@@ -87,7 +87,7 @@ RetargetResult retargetMotionFile(const fs::path& path, const LoadOptions& optio
   // A rate that differs only by the digits of its file (0.0333333 s) needs no new frames.
   constexpr double kSameRate = 1.001;
   if (motion.fps > options.max_fps * kSameRate) motion = resampled(motion, options.max_fps);
-  RetargetResult result = retarget(motion, metres_per_unit, path.string(), options.retarget);
+  RetargetResult result = retarget(motion, metres_per_unit, path.string());
   result.clip.name = path.stem().string();
   return result;
 }

@@ -18,7 +18,6 @@ struct LoadOptions {
   // zero. Such a first frame, from which the body jumps, is replaced by the second one, so that frame numbers stay as
   // they are.
   bool repair_first_frame = true;
-  RetargetConfig retarget;
   void validate() const;  // throws Error naming field, value and rule
 };
 

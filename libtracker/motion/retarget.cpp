@@ -14,6 +14,11 @@
 namespace depthmocap {
 namespace {
 
+// Weight of a radian beyond a joint limit against a metre of distance of a joint.
+constexpr double kLimitWeight_m = 0.10;
+// Weight of a radian of change from the frame before against a metre of distance of a joint.
+constexpr double kSmoothWeight_m = 0.003;
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -31,8 +36,7 @@ class FrameFit {
   using Scalar = double;
   enum { NUM_RESIDUALS = kJointRows + kAxisRows + 2 * kBodyDofs, NUM_PARAMETERS = kDofCount };
 
-  FrameFit(const Skeleton& skeleton, const RetargetConfig& config)
-      : skeleton_(skeleton), points_(jointPoints(skeleton)), config_(config) {}
+  explicit FrameFit(const Skeleton& skeleton) : skeleton_(skeleton), points_(jointPoints(skeleton)) {}
 
   FitTargets targets;
   Pose previous = Pose::Zero();
@@ -82,8 +86,8 @@ class FrameFit {
     for (int i = 0; i < kBodyDofs; ++i) {
       const int dof = kFirstBodyDof + i;
       const double beyond = q[dof] - std::clamp(q[dof], limits.lower[dof], limits.upper[dof]);
-      r[kJointRows + kAxisRows + i] = config_.limit_weight_m * beyond;
-      r[kJointRows + kAxisRows + kBodyDofs + i] = smooth ? config_.smooth_weight_m * (q[dof] - previous[dof]) : 0.0;
+      r[kJointRows + kAxisRows + i] = kLimitWeight_m * beyond;
+      r[kJointRows + kAxisRows + kBodyDofs + i] = smooth ? kSmoothWeight_m * (q[dof] - previous[dof]) : 0.0;
     }
   }
 
@@ -107,14 +111,13 @@ class FrameFit {
     for (int i = 0; i < kBodyDofs; ++i) {
       const int dof = kFirstBodyDof + i;
       const bool beyond = q[dof] < limits.lower[dof] || q[dof] > limits.upper[dof];
-      J(kJointRows + kAxisRows + i, dof) = beyond ? config_.limit_weight_m : 0.0;
-      J(kJointRows + kAxisRows + kBodyDofs + i, dof) = smooth ? config_.smooth_weight_m : 0.0;
+      J(kJointRows + kAxisRows + i, dof) = beyond ? kLimitWeight_m : 0.0;
+      J(kJointRows + kAxisRows + kBodyDofs + i, dof) = smooth ? kSmoothWeight_m : 0.0;
     }
   }
 
   const Skeleton& skeleton_;
   std::array<BonePoint, kJointCount> points_;
-  RetargetConfig config_;
   mutable ForwardKinematics fk_;
 };
 
@@ -180,8 +183,8 @@ void canonicaliseRoot(Pose& q, double heading_before) {
 
 class Fitter {
  public:
-  Fitter(const RestCalibration& calibration, const Skeleton& skeleton, const RetargetConfig& config)
-      : calibration_(calibration), skeleton_(skeleton), fit_(skeleton, config) {
+  Fitter(const RestCalibration& calibration, const Skeleton& skeleton)
+      : calibration_(calibration), skeleton_(skeleton), fit_(skeleton) {
     solver_.options.max_num_iterations = 60;
     solver_.options.function_tolerance = 1e-7;
     solver_.options.parameter_tolerance = 1e-7;
@@ -232,8 +235,7 @@ double RetargetResiduals::mean() const {
   return sum / kJointCount;
 }
 
-RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, const std::string& where,
-                        const RetargetConfig& config) {
+RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, const std::string& where) {
   DMC_CHECK(!motion.frames.empty() && metres_per_unit > 0);
   const RestCalibration calibration(motion, metres_per_unit, where);
   RetargetResult result;
@@ -241,7 +243,7 @@ RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, cons
   result.clip.lengths = calibration.lengths();
   result.clip.poses.reserve(motion.frames.size());
   const Skeleton skeleton = makeSkeleton(calibration.lengths());
-  Fitter fitter(calibration, skeleton, config);
+  Fitter fitter(calibration, skeleton);
   GlobalFrame global;
   Eigen::Matrix<double, kJointCount, 1> distance;
   for (const MotionFrame& frame : motion.frames) {

@@ -20,17 +20,10 @@ struct RetargetResult {
   RetargetResiduals residuals;
 };
 
-// Weights of the fit beside the joint positions, which count in metres.
-struct RetargetConfig {
-  double limit_weight_m = 0.10;    // [m] for 1 rad beyond a joint limit (>= 0)
-  double smooth_weight_m = 0.003;  // [m] for a change of 1 rad from the frame before (>= 0)
-};
-
 // Fits the 36 DoF to every frame of a motion on any human skeleton (in the spirit of Gleicher 1998): bone lengths from
 // the rest pose, then per frame least squares on the 18 joints and the axes of kFitAxes by Levenberg-Marquardt, started
 // from the frame before. DoFs are continuous in time, except that a body upside down changes the sign of its tilt
 // (root_rx, root_rz stay within pi). The motion must have frames; `where` names the file in Errors.
-RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, const std::string& where,
-                        const RetargetConfig& config = {});
+RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, const std::string& where);
 
 }  // namespace depthmocap

@@ -67,18 +67,22 @@ bool nearer(const PoseNeighbour& a, const PoseNeighbour& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
 }
 
-void require(bool holds, const char* field, double value, const char* rule) {
-  if (!holds) throw Error(fmt::format("{} = {}, but it must be {}", field, value, rule), "pose search settings");
-}
-
 }  // namespace
 
+std::vector<ConfigField> PoseSearchConfig::fields() {
+  return {
+      {"alpha", &alpha, "", atLeast(0), "Weight of the marker distance in equation (3)"},
+      {"beta", &beta, "", atLeast(0), "Weight of the change of pose in equation (3)"},
+      {"sigma_m", &sigma_m, "m", above(0), "Scale of the Lorentzian in equation (3)"},
+      {"upright_alignment", &upright_alignment, "", kAnyNumber, "Align by turns about the vertical only"},
+      {"candidates", &candidates, "poses", atLeast(1), "Proposed by the index for the exact distance"},
+      {"features", &features, "", fromTo(1, kMaxMarkerFeatures),
+       "Principal components of the markers that the index holds"},
+  };
+}
+
 void PoseSearchConfig::validate() const {
-  require(alpha >= 0, "alpha", alpha, "at least 0");
-  require(beta >= 0, "beta", beta, "at least 0");
-  require(sigma_m > 0, "sigma_m", sigma_m, "above 0");
-  require(candidates >= 1, "candidates", candidates, "at least 1");
-  require(features >= 1 && features <= kMaxMarkerFeatures, "features", features, "from 1 to 30");
+  checkFieldsOf("PoseSearchConfig", *this);
 }
 
 struct PoseSearch::Impl {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "depthmocap/marker_set.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/posedb/pose_database.h"
 #include "libtracker/skeleton/marker_model.h"
 
@@ -17,7 +18,8 @@ struct PoseSearchConfig {
   bool upright_alignment = false;  // R(a_n, a~) turns about the vertical only, beyond the paper; else any rotation
   int candidates = 512;            // [poses] (>= 1) proposed by the FLANN index for the exact distance
   int features = 16;               // (1 .. 30) principal components of the markers that the index holds
-  void validate() const;           // throws Error naming field, value and rule
+  std::vector<ConfigField> fields();
+  void validate() const;  // throws Error naming field, value and rule
 };
 
 // What is searched for.

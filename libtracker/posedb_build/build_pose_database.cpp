@@ -9,6 +9,7 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/joint_limits.h"
@@ -121,16 +122,13 @@ class Builder {
   PoseDatabaseResult result_;
 };
 
-void requireNotNegative(double value, const char* field) {
-  if (!(value >= 0) || !std::isfinite(value)) throw Error(fmt::format("{} must not be negative", value), field);
-}
-
 }  // namespace
 
 void PoseDatabaseConfig::validate() const {
-  requireNotNegative(threshold_m, "threshold_m");
-  requireNotNegative(beyond_limits_rad, "beyond_limits_rad");
-  if (threads < 1) throw Error(fmt::format("{} must be at least 1", threads), "threads");
+  const char* name = "PoseDatabaseConfig";
+  checkConfig(threshold_m >= 0, name, "threshold_m", threshold_m, "at least 0");
+  checkConfig(beyond_limits_rad >= 0, name, "beyond_limits_rad", beyond_limits_rad, "at least 0");
+  checkConfig(threads >= 1, name, "threads", threads, "at least 1");
 }
 
 PoseDatabaseResult buildPoseDatabase(const std::vector<MotionClip>& clips, const PoseDatabaseConfig& config) {

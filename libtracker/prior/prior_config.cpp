@@ -2,34 +2,37 @@
 
 #include <algorithm>
 #include <functional>
-
-#include <fmt/format.h>
+#include <string>
 
 #include "depthmocap/error.h"
 
 namespace depthmocap {
 namespace {
 
-// Strictly ascending values within [least, most], at least one.
-void requireList(const char* field, const std::vector<int>& values, int least, int most) {
-  const bool in_range = !values.empty() && values.front() >= least && values.back() <= most;
+void checkAscending(const char* field, const std::vector<int>& values) {
   const bool ascending = std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
-  if (in_range && ascending) return;
-  throw Error(fmt::format("{} must be ascending whole numbers from {} to {}", field, least, most),
-              "local prior settings");
+  if (values.empty() || !ascending) throw Error(std::string(field) + " must be ascending, at least one", "PriorConfig");
 }
 
 }  // namespace
 
+std::vector<ConfigField> PriorConfig::fields() {
+  return {
+      {"neighbours", &neighbours, "poses", fromTo(3, kMaxPriorNeighbours),
+       "Numbers K of neighbours to choose from, ascending"},
+      {"dims", &dims, "", fromTo(1, kMaxPriorDims), "Numbers B of dimensions to choose from, ascending"},
+      {"held_out", &held_out, "poses", atLeast(1), "Nearest poses left out in turn to choose K and B"},
+      {"residual_rad", &residual_rad, "rad", atLeast(0),
+       "0: the subspace of the paper; otherwise a Gaussian with this deviation in every direction"},
+  };
+}
+
 void PriorConfig::validate() const {
-  requireList("neighbours", neighbours, 3, kMaxPriorNeighbours);
-  requireList("dims", dims, 1, kMaxPriorDims);
-  if (!(residual_rad >= 0)) throw Error("residual_rad must not be negative", "local prior settings");
-  if (held_out < 1 || held_out > neighbours.front()) {
-    throw Error(fmt::format("held_out = {}, but it must be from 1 to the smallest of neighbours, {}", held_out,
-                            neighbours.front()),
-                "local prior settings");
-  }
+  checkFieldsOf("PriorConfig", *this);
+  checkAscending("neighbours", neighbours);
+  checkAscending("dims", dims);
+  checkConfig(held_out <= neighbours.front(), "PriorConfig", "held_out", held_out,
+              "at most the smallest of neighbours");
 }
 
 }  // namespace depthmocap

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "libtracker/core/config_fields.h"
 #include "libtracker/skeleton/local_prior.h"
 
 namespace depthmocap {
@@ -15,6 +16,7 @@ struct PriorConfig {
   // [rad] (>= 0) 0: the paper's subspace. Else a Gaussian over the largest K and all directions, which a pose leaves by
   // so much: nothing is chosen.
   double residual_rad = 0;
+  std::vector<ConfigField> fields();
   void validate() const;  // throws Error naming field, value and rule
 };
 

@@ -32,22 +32,27 @@ constexpr int kCompanyFrames = 30;      // and how long it is reckoned with afte
 constexpr float kCompanyLooks = 0.1F;   // of the actor's usual ones
 constexpr float kLargeThing_m2 = 0.3F;  // in view; it may be what somebody leans on
 
-void require(bool holds, const char* field, double value, const char* rule) {
-  if (!holds)
-    throw Error(fmt::format("{} must be {}, not {}", field, rule, value), "SegmentConfig", "change this option");
-}
-
 }  // namespace
 
+std::vector<ConfigField> SegmentConfig::fields() {
+  return {
+      {"min_depth_m", &min_depth_m, "m", atLeast(0), "Nearer measurements are dropped"},
+      {"max_depth_m", &max_depth_m, "m", above(0), "Farther measurements are dropped"},
+      {"floor_distance_m", &floor_distance_m, "m", above(0),
+       "Points this near the floor plane are floor, in addition to what the noise of the sensor needs"},
+      {"cluster_gap_m", &cluster_gap_m, "m", above(0), "Points farther apart belong to different clusters"},
+      {"min_height_m", &min_height_m, "m", above(0),
+       "A person is at least this tall, unless cut by the border of the image"},
+      {"max_height_m", &max_height_m, "m", above(0), "A person is at most this tall"},
+      {"min_pixels", &min_pixels, "px", atLeast(1), "Fewer pixels at 320x240 are no person"},
+      {"plane_interval", &plane_interval, "frames", atLeast(1), "Floor and walls are looked for again after this many"},
+  };
+}
+
 void SegmentConfig::validate() const {
-  require(min_depth_m >= 0, "min_depth_m", min_depth_m, ">= 0");
-  require(max_depth_m > min_depth_m, "max_depth_m", max_depth_m, "> min_depth_m");
-  require(floor_distance_m > 0, "floor_distance_m", floor_distance_m, "> 0");
-  require(cluster_gap_m > 0, "cluster_gap_m", cluster_gap_m, "> 0");
-  require(min_height_m > 0, "min_height_m", min_height_m, "> 0");
-  require(max_height_m > min_height_m, "max_height_m", max_height_m, "> min_height_m");
-  require(min_pixels >= 1, "min_pixels", min_pixels, ">= 1");
-  require(plane_interval >= 1, "plane_interval", plane_interval, ">= 1");
+  checkFieldsOf("SegmentConfig", *this);
+  checkConfig(max_depth_m > min_depth_m, "SegmentConfig", "max_depth_m", max_depth_m, "above min_depth_m");
+  checkConfig(max_height_m > min_height_m, "SegmentConfig", "max_height_m", max_height_m, "above min_height_m");
 }
 
 struct Segmenter::Impl {

@@ -6,6 +6,7 @@
 
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
+#include "libtracker/core/config_fields.h"
 
 namespace depthmocap {
 
@@ -18,8 +19,8 @@ struct SegmentConfig {
   double max_height_m = 2.4;       // [m] (> min_height_m)
   int min_pixels = 400;            // [px] (>= 1) at 320x240; scaled with the image
   int plane_interval = 30;         // [frames] (>= 1) the floor and the walls are looked for again after so many
-  // Throws Error naming field, value and rule.
-  void validate() const;
+  std::vector<ConfigField> fields();
+  void validate() const;  // throws Error naming field, value and rule
 };
 
 // Where the actor is expected, who is known from the frames before or was pointed at.

@@ -11,10 +11,6 @@
 namespace depthmocap {
 namespace {
 
-void require(bool holds, const char* field, double value, const char* rule) {
-  if (!holds) throw Error(fmt::format("{} = {}, but it must be {}", field, value, rule), "MAP solver settings");
-}
-
 // MapFunction as a cost function of the general solver, which wants its Jacobian row-major.
 class MapCost : public ceres::SizedCostFunction<MapFunction::NUM_RESIDUALS, kDofCount> {
  public:
@@ -35,19 +31,25 @@ class MapCost : public ceres::SizedCostFunction<MapFunction::NUM_RESIDUALS, kDof
 
 }  // namespace
 
+std::vector<ConfigField> MapConfig::fields() {
+  return {
+      {"lambda_prior", &lambda_prior, "", atLeast(0), "Weight of the prior in equation (5), lambda1"},
+      {"lambda_marker", &lambda_marker, "", above(0), "Weight of the markers in equation (5), lambda2"},
+      {"lambda_smooth", &lambda_smooth, "", atLeast(0), "Weight of smoothness in equation (5), lambda3"},
+      {"lambda_limit", &lambda_limit, "", atLeast(0), "Weight of the joint limits"},
+      {"lambda_surface", &lambda_surface, "", atLeast(0), "Weight of one match of the dense term"},
+      {"sigma_surface_m", &sigma_surface_m, "m", above(0), "Scale of the dense term"},
+      {"lambda_contact", &lambda_contact, "", atLeast(0), "Weight of a foot that stands"},
+      {"sigma_contact_m", &sigma_contact_m, "m", above(0), "Scale of the Lorentzian of a foot that stands"},
+      {"velocity_share", &velocity_share, "", fromTo(0, 1), "Share of the last velocity that is expected to go on"},
+      {"sigma_m", &sigma_m, "m", above(0), "Scale of the Lorentzian of the markers"},
+      {"max_iterations", &max_iterations, "", atLeast(1), "Steps of one solve"},
+      {"energy_tolerance", &energy_tolerance, "", above(0), "A solve ends where one step changes the energy by less"},
+  };
+}
+
 void MapConfig::validate() const {
-  require(lambda_prior >= 0, "lambda_prior", lambda_prior, "at least 0");
-  require(lambda_marker > 0, "lambda_marker", lambda_marker, "above 0");
-  require(lambda_smooth >= 0, "lambda_smooth", lambda_smooth, "at least 0");
-  require(lambda_limit >= 0, "lambda_limit", lambda_limit, "at least 0");
-  require(lambda_surface >= 0, "lambda_surface", lambda_surface, "at least 0");
-  require(sigma_surface_m > 0, "sigma_surface_m", sigma_surface_m, "above 0");
-  require(lambda_contact >= 0, "lambda_contact", lambda_contact, "at least 0");
-  require(sigma_contact_m > 0, "sigma_contact_m", sigma_contact_m, "above 0");
-  require(velocity_share >= 0 && velocity_share <= 1, "velocity_share", velocity_share, "from 0 to 1");
-  require(sigma_m > 0, "sigma_m", sigma_m, "above 0");
-  require(max_iterations >= 1, "max_iterations", max_iterations, "at least 1");
-  require(energy_tolerance > 0, "energy_tolerance", energy_tolerance, "above 0");
+  checkFieldsOf("MapConfig", *this);
 }
 
 struct MapSolver::Impl {

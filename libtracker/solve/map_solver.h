@@ -1,7 +1,9 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "depthmocap/marker_set.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/skeleton/local_prior.h"
 #include "libtracker/skeleton/marker_model.h"
 #include "libtracker/skeleton/skeleton.h"
@@ -24,7 +26,8 @@ struct MapConfig {
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
   int max_iterations = 20;         // (>= 1) a guard: the mean is about 5
   double energy_tolerance = 1e-3;  // (> 0) stop where one step changes the energy by less
-  void validate() const;           // throws Error naming field, value and rule
+  std::vector<ConfigField> fields();
+  void validate() const;  // throws Error naming field, value and rule
 };
 
 // One frame's problem. The references must outlive solve().

@@ -1,18 +1,6 @@
 #include "libtracker/tracker/tracker_config.h"
 
-#include <string>
-
-#include "depthmocap/error.h"
-
 namespace depthmocap {
-namespace {
-
-void require(bool holds, const char* rule) {
-  if (!holds) throw Error(rule, "TrackPolicy");
-}
-
-}  // namespace
-
 MapConfig measuredWeights() {
   MapConfig weights;
   weights.lambda_prior = 100.0;
@@ -39,22 +27,39 @@ TrackerConfig paperConfig() {
   return config;
 }
 
+std::vector<ConfigField> TrackPolicy::fields() {
+  return {
+      {"min_markers", &min_markers, "markers", fromTo(1, kPartCount), "Fewer seen markers are not enough for a pose"},
+      {"min_visible", &min_visible, "", fromTo(0, 1), "A smaller visible share of the actor is not enough either"},
+      {"max_rms_m", &max_rms_m, "m", above(0), "A worse fit of the seen markers is not believed"},
+      {"suspect_rms_m", &suspect_rms_m, "m", above(0), "Above it a global search competes with the tracked pose"},
+      {"switch_gain", &switch_gain, "", between(0, 1),
+       "The global pose wins if its energy is below this share of that of the tracked one"},
+      {"coast_s", &coast_s, "s", atLeast(0), "A pose is carried on without evidence this long"},
+      {"absent_s", &absent_s, "s", atLeast(0), "A lost actor is waited for this long"},
+      {"start_poses", &start_poses, "poses", atLeast(1), "Database poses that a global search solves from"},
+      {"dense_rounds", &dense_rounds, "", atLeast(0), "Rounds of matching depth with the surface; 0 = markers only"},
+      {"expect_sides", &expect_sides, "", kAnyNumber, "The pose before tells left from right"},
+      {"hold_feet", &hold_feet, "", kAnyNumber, "Feet that stand are held where they are"},
+      {"assumed_stature_m", &assumed_stature_m, "m", fromTo(1.0, 2.2), "Of an uncalibrated actor at the start"},
+      {"adapt_s", &adapt_s, "s", atLeast(0), "Good frames over which the size of an uncalibrated actor is fitted"},
+  };
+}
+
 void TrackPolicy::validate() const {
-  require(min_markers >= 1 && min_markers <= kPartCount, "min_markers must be from 1 to 15");
-  require(min_visible >= 0 && min_visible <= 1, "min_visible must lie between 0 and 1");
-  require(max_rms_m > 0, "max_rms_m must be positive");
-  require(suspect_rms_m > 0, "suspect_rms_m must be positive");
-  require(switch_gain > 0 && switch_gain < 1, "switch_gain must lie between 0 and 1");
-  require(coast_s >= 0, "coast_s must not be negative");
-  require(absent_s >= coast_s, "absent_s must not be less than coast_s");
-  require(start_poses >= 1, "start_poses must be at least 1");
-  require(dense_rounds >= 0, "dense_rounds must not be negative");
-  require(assumed_stature_m >= 1.0 && assumed_stature_m <= 2.2, "assumed_stature_m must lie between 1.0 and 2.2");
-  require(adapt_s >= 0, "adapt_s must not be negative");
+  checkFieldsOf("TrackPolicy", *this);
+  checkConfig(absent_s >= coast_s, "TrackPolicy", "absent_s", absent_s, "at least coast_s");
+}
+
+std::vector<TrackerConfig::Section> TrackerConfig::sections() {
+  return {{"segment", segment.fields()}, {"classify", classify.fields()},     {"markers", markers.fields()},
+          {"search", search.fields()},   {"prior", prior.fields()},           {"solve", solve.fields()},
+          {"surface", surface.fields()}, {"free_space", free_space.fields()}, {"policy", policy.fields()}};
 }
 
 void TrackerConfig::validate() const {
   segment.validate();
+  classify.validate();
   markers.validate();
   search.validate();
   prior.validate();
@@ -62,8 +67,7 @@ void TrackerConfig::validate() const {
   surface.validate();
   free_space.validate();
   policy.validate();
-  if (classify.stride < 1) throw Error("stride must be at least 1", "ClassifyConfig");
-  if (threads < 1) throw Error("threads must be at least 1", "TrackerConfig");
+  checkConfig(threads >= 1, "TrackerConfig", "threads", threads, "at least 1");
 }
 
 }  // namespace depthmocap

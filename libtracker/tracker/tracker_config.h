@@ -1,5 +1,6 @@
 #pragma once
 #include "libtracker/classify/part_classifier.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/markers/find_markers.h"
 #include "libtracker/match/free_space_matcher.h"
 #include "libtracker/match/surface_matcher.h"
@@ -25,6 +26,7 @@ struct TrackPolicy {
   bool hold_feet = true;         // feet that stand are held where they are; false: the paper
   double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
   double adapt_s = 3.0;             // [s] of good frames over which an uncalibrated actor's size is fitted
+  std::vector<ConfigField> fields();
   void validate() const;
 };
 
@@ -47,6 +49,14 @@ struct TrackerConfig {
   FreeSpaceConfig free_space;
   TrackPolicy policy;
   int threads = 2;  // (>= 1) for the stages that can use them
+
+  // A stage's fields, by the name of the stage.
+  struct Section {
+    std::string_view name;
+    std::vector<ConfigField> fields;
+  };
+  // All fields of all stages, in the order of the method. `threads` is no field: results do not depend on it.
+  std::vector<Section> sections();
   void validate() const;
 };
 

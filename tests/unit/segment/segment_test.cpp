@@ -252,7 +252,8 @@ TEST(SegmentConfig, ErrorNamesFieldAndRule) {
     Segmenter segmenter(config);
     FAIL() << "accepted";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("max_depth_m must be > min_depth_m"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("max_depth_m must be above min_depth_m"), std::string::npos)
+        << error.what();
   }
 }
 
