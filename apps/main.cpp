@@ -24,13 +24,17 @@ void addCommands(CLI::App& app) {
   addCamerasCommand(app);
   addCalibrateCommand(app);
   addEvaluateCommand(app);
+#ifdef DEPTHMOCAP_LEARNING
   addForestCommand(app);
+#endif
   addPosedbCommand(app);
   addIkCommand(app);
   addShapeSpaceCommand(app);
   addBodyTemplatesCommand(app);
   addServeCommand(app);
+#ifdef DEPTHMOCAP_LEARNING
   addSynthesizeCommand(app);
+#endif
 }
 
 int failure(std::string message) {
