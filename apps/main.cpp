@@ -24,14 +24,18 @@ void addCommands(CLI::App& app) {
   addCamerasCommand(app);
   addCalibrateCommand(app);
   addEvaluateCommand(app);
+#ifdef DEPTHMOCAP_LEARNING
   addForestCommand(app);
+#endif
   addPosedbCommand(app);
   addIkCommand(app);
   addShapeSpaceCommand(app);
   addBodyTemplatesCommand(app);
   addConfigTableCommand(app);
   addServeCommand(app);
+#ifdef DEPTHMOCAP_LEARNING
   addSynthesizeCommand(app);
+#endif
 }
 
 int failure(std::string message) {

@@ -1,7 +1,17 @@
-# Warnings are errors in our code. -ffp-contract=off and no -ffast-math: the same input gives the same bytes on every
-# machine, whatever it can do beyond the x86-64 baseline (faster code is chosen at run time, in the layers that need it).
+# -ffp-contract=off and no -ffast-math: the same input gives the same bytes on every machine, whatever it can do beyond
+# the x86-64 baseline (faster code is chosen at run time, in the layers that need it). Warnings are errors in our code,
+# where it is we who build it.
 add_library(depthmocap_flags INTERFACE)
-target_compile_options(depthmocap_flags INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
+target_compile_options(depthmocap_flags INTERFACE -ffp-contract=off)
+if(PROJECT_IS_TOP_LEVEL)
+  target_compile_options(depthmocap_flags INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
+endif()
+
+# The same object files serve the program and the shared library, which shows what has DEPTHMOCAP_API and nothing else.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+target_compile_options(depthmocap_flags INTERFACE -fno-semantic-interposition)
 
 option(DEPTHMOCAP_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 if(DEPTHMOCAP_SANITIZE)

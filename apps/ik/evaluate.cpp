@@ -21,7 +21,7 @@ constexpr std::array<int, 4> kJoints = {6, 8, 10, 15};  // those of the paper
 constexpr std::array<double, 2> kNoise_m = {0.010, 0.030};
 constexpr int kNoisyJoints = 15;
 
-struct EvaluateOptions : IkOptions {
+struct EvaluateOptions : IkCommandOptions {
   std::filesystem::path database;
   std::filesystem::path picture;
   IkExperimentConfig experiment;

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SolveOptions : IkOptions {
+struct SolveOptions : IkCommandOptions {
   fs::path targets;
   fs::path out;
   std::string prior;  // empty: the default of the solver

@@ -66,7 +66,7 @@ json listOf(const Eigen::Vector3d& p) {
 
 }  // namespace
 
-IkRequests::IkRequests(const IkOptions& options) : skeleton_(ikSkeleton(options)) {
+IkRequests::IkRequests(const IkCommandOptions& options) : skeleton_(ikSkeleton(options)) {
   const auto learned = ikLearnedPoses(options);
   for (int prior = 0; prior < kIkPriorCount; ++prior) {
     IkConfig config;

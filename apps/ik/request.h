@@ -9,7 +9,7 @@ namespace depthmocap {
 // Answers POST /ik: JSON in, JSON out, as docs/ik.md describes.
 class IkRequests {
  public:
-  explicit IkRequests(const IkOptions& options);  // loads what every prior needs
+  explicit IkRequests(const IkCommandOptions& options);  // loads what every prior needs
 
   // Error says what is wrong with the request. Any thread.
   [[nodiscard]] std::string answer(const std::string& body) const;

@@ -15,7 +15,7 @@ namespace {
 
 struct ServeOptions {
   ViewOptions view;
-  IkOptions ik;
+  IkCommandOptions ik;
 };
 
 void serve(const ServeOptions& options) {

@@ -23,19 +23,19 @@ Value named(const std::array<std::string_view, N>& names, const std::string& nam
 
 }  // namespace
 
-void addIkOptions(CLI::App& command, IkOptions& o) {
+void addIkOptions(CLI::App& command, IkCommandOptions& o) {
   command.add_option("--actor", o.actor, "Calibrated body (see calibrate); otherwise an average adult")
       ->type_name("A.json");
   command.add_option("--priors", o.priors, "Learned poses (see posedb learn-priors; default: those of the build)")
       ->type_name("FILE");
 }
 
-Skeleton ikSkeleton(const IkOptions& options) {
+Skeleton ikSkeleton(const IkCommandOptions& options) {
   if (options.actor.empty()) return makeSkeleton(BoneLengths{});
   return readActorFile(options.actor).skeleton;
 }
 
-std::shared_ptr<const LearnedPoses> ikLearnedPoses(const IkOptions& options) {
+std::shared_ptr<const LearnedPoses> ikLearnedPoses(const IkCommandOptions& options) {
   return std::make_shared<const LearnedPoses>(
       loadLearnedPoses(options.priors.empty() ? shippedFile("pose_priors.bin") : options.priors));
 }

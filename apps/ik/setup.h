@@ -12,17 +12,17 @@ class App;
 namespace depthmocap {
 
 // Options of every command that solves for poses; empty = the default.
-struct IkOptions {
+struct IkCommandOptions {
   std::filesystem::path actor;   // a calibrated body; otherwise the average adult
   std::filesystem::path priors;  // learned poses; otherwise those that come with the build
 };
 
-void addIkOptions(CLI::App& command, IkOptions& options);
+void addIkOptions(CLI::App& command, IkCommandOptions& options);
 
 // The body of --actor, or the average one.
-Skeleton ikSkeleton(const IkOptions& options);
+Skeleton ikSkeleton(const IkCommandOptions& options);
 // What --priors names; Error where it is missing or damaged.
-std::shared_ptr<const LearnedPoses> ikLearnedPoses(const IkOptions& options);
+std::shared_ptr<const LearnedPoses> ikLearnedPoses(const IkCommandOptions& options);
 
 // The value with this name, of those in ik_solver.h.
 IkMethod ikMethodNamed(const std::string& name);

@@ -14,14 +14,15 @@
 #include "apps/commands.h"
 #include "apps/terminal/progress.h"
 #include "depthmocap/error.h"
+#include "forest/pose_model/fit_pose_mixture.h"
 #include "forest/pose_model/learn_poses.h"
-#include "forest/pose_model/pose_mixture.h"
 #include "libtracker/choreography/procedural_motions.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/motion/motion_files.h"
 #include "libtracker/posedb/pose_database.h"
-#include "libtracker/posedb_build/build_pose_database.h"
+#include "libtracker/posedb_build/compose_pose_database.h"
+#include "libtracker/posedb_build/pose_mixture.h"
 
 namespace depthmocap {
 namespace {
@@ -126,26 +127,6 @@ ReadMotions readMotions(const BuildOptions& o) {
   return read;
 }
 
-std::string originOf(const BuildOptions& o, const ReadMotions& read) {
-  std::string origin =
-      fmt::format("{} captured and {} procedural motions", read.captured, read.clips.size() - read.captured);
-  if (o.procedural) origin += fmt::format(" (seed {})", o.seed);
-  if (!o.samples.empty()) origin += fmt::format(", {} samples of a pose mixture (seed {})", o.sample_count, o.seed);
-  if (!o.exclude.empty()) origin += fmt::format(", without {}", fmt::join(o.exclude, " "));
-  return origin + fmt::format(", threshold {} m, mirror {}", o.threshold_m, o.mirror);
-}
-
-// Draws poses as one more source. They are not thinned out: two draws are hardly ever alike.
-void addSamples(const PoseMixture& mixture, const BuildOptions& o, PoseDatabase& database) {
-  PoseDatabase::Source source{"samples", static_cast<std::uint32_t>(database.size()), 0};
-  for (auto& q : samplePoses(mixture, o.sample_count, o.seed)) {
-    q[kRootTx] = q[kRootTy] = q[kRootTz] = q[kRootRy] = 0;
-    database.poses.push_back(q);
-    ++source.count;
-  }
-  database.sources.push_back(source);
-}
-
 void build(const BuildOptions& o) {
   if (o.motions.empty() && !o.procedural) {
     throw CLI::RequiredError("--motions DIR or --procedural");
@@ -155,18 +136,18 @@ void build(const BuildOptions& o) {
   if (!fs::is_directory(folder)) throw Error("the folder does not exist", o.out.string(), "create it first");
   const PoseMixture mixture = o.samples.empty() ? PoseMixture{} : loadPoseMixture(o.samples);
   const auto start = std::chrono::steady_clock::now();
-  const ReadMotions read = readMotions(o);
+  ReadMotions read = readMotions(o);
+  const std::size_t procedural = read.clips.size() - read.captured;
+  const PoseDatabaseSources sources{std::move(read.clips), read.captured, o.procedural, o.exclude, mixture,
+                                    o.sample_count,        o.seed};
   PoseDatabaseConfig config;
   config.threshold_m = o.threshold_m;
   config.mirror = o.mirror == "on";
   config.threads = o.threads;
-  PoseDatabaseResult result = buildPoseDatabase(read.clips, config);
-  result.database.origin = originOf(o, read);
-  if (!o.samples.empty()) addSamples(mixture, o, result.database);
+  const PoseDatabaseResult result = composePoseDatabase(sources, config);
   savePoseDatabase(result.database, o.out);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fmt::print("motions      {} read, {} broken, {} procedural\n", read.captured, read.broken,
-             read.clips.size() - read.captured);
+  fmt::print("motions      {} read, {} broken, {} procedural\n", read.captured, read.broken, procedural);
   if (read.captured_frames > 0) {
     fmt::print("residual     {:.1f} mm mean over joints and frames\n",
                1000.0 * read.residual_sum / static_cast<double>(read.captured_frames));

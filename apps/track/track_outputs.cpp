@@ -21,17 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-JointsRow jointsRow(const TrackedFrame& tracked) {
-  JointsRow row;
-  row.frame = tracked.frame;
-  row.time_s = tracked.time_s;
-  row.state = tracked.state;
-  if (tracked.state == TrackState::Lost) return row;
-  row.p_camera = tracked.joints_camera;
-  row.confidence = tracked.confidence;
-  return row;
-}
-
 class LabelWriter {
  public:
   explicit LabelWriter(fs::path folder) : folder_(std::move(folder)) {

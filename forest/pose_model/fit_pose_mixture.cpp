@@ -1,3 +1,5 @@
+#include "forest/pose_model/fit_pose_mixture.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <limits>
 
 #include "depthmocap/error.h"
-#include "forest/pose_model/pose_mixture.h"
 #include "libtracker/core/config_fields.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"

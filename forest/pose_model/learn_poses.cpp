@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "forest/pose_model/fit_pose_mixture.h"
 #include "forest/pose_model/network_trainer.h"
-#include "forest/pose_model/pose_mixture.h"
 #include "libtracker/core/config_fields.h"
 
 namespace depthmocap {

@@ -1,6 +1,6 @@
 #pragma once
-#include "libtracker/ik/ik_result.h"
-#include "libtracker/ik/joint_targets.h"
+#include "depthmocap/ik_result.h"
+#include "depthmocap/joint_targets.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {

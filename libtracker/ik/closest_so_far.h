@@ -1,5 +1,5 @@
 #pragma once
-#include "libtracker/ik/ik_result.h"
+#include "depthmocap/ik_result.h"
 
 namespace depthmocap {
 

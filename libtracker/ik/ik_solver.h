@@ -1,25 +1,12 @@
 #pragma once
-#include <array>
 #include <memory>
-#include <string_view>
 
-#include "libtracker/ik/ik_result.h"
-#include "libtracker/ik/joint_targets.h"
+#include "depthmocap/ik.h"
 #include "libtracker/ik/learned_poses.h"
 #include "libtracker/ik/levenberg_marquardt.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {
-
-// Solvers. Lm is that of MNN-IK (levenberg_marquardt.h); the others are the classic baselines and know no prior.
-enum class IkMethod { Lm, Jacobian, Ccd, Fabrik };
-inline constexpr std::array<std::string_view, 4> kIkMethodNames = {"lm", "jacobian", "ccd", "fabrik"};
-
-// What says how natural a pose is; see gaussian_prior.h and network_priors.h.
-enum class IkPrior { None, Ppca, Gmm, Autoencoder, Vae };
-inline constexpr int kIkPriorCount = 5;
-inline constexpr std::array<std::string_view, kIkPriorCount> kIkPriorNames = {"none", "ppca", "gmm", "autoencoder",
-                                                                              "vae"};
 
 struct IkConfig {
   IkMethod method = IkMethod::Lm;

@@ -1,4 +1,4 @@
-#include "libtracker/ik/joint_targets.h"
+#include "depthmocap/joint_targets.h"
 
 #include <algorithm>
 

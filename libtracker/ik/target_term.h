@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "libtracker/ik/joint_targets.h"
+#include "depthmocap/joint_targets.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {

@@ -149,11 +149,25 @@ struct PoseWriter::Impl : RowFile {
   std::optional<Eigen::Matrix3d> named;
 };
 
-JointsWriter::JointsWriter(const std::filesystem::path& path)
-    : impl_(std::make_unique<Impl>(path, fmt::format("{}\n", fmt::join(jointsColumns(), ",")))) {}
+JointsRow jointsRow(const TrackedFrame& tracked) {
+  JointsRow row;
+  row.frame = tracked.frame;
+  row.time_s = tracked.time_s;
+  row.state = tracked.state;
+  if (tracked.state == TrackState::Lost) return row;
+  row.p_camera = tracked.joints_camera;
+  row.confidence = tracked.confidence;
+  return row;
+}
+
+std::string jointsHeader() {
+  return fmt::format("{}\n", fmt::join(jointsColumns(), ","));
+}
+
+JointsWriter::JointsWriter(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path, jointsHeader())) {}
 JointsWriter::~JointsWriter() = default;
 
-void JointsWriter::write(const JointsRow& row) {
+std::string jointsLine(const JointsRow& row) {
   DMC_CHECK(row.p_camera.allFinite() && row.confidence.allFinite());
   std::string text = fmt::format("{},{:.6f},{}", row.frame, row.time_s, trackStateName(row.state));
   for (int joint = 0; joint < kJointCount; ++joint) {
@@ -165,7 +179,11 @@ void JointsWriter::write(const JointsRow& row) {
                      row.confidence[joint]);
     }
   }
-  impl_->write(text + "\n");
+  return text + "\n";
+}
+
+void JointsWriter::write(const JointsRow& row) {
+  impl_->write(jointsLine(row));
 }
 
 void JointsWriter::finish() {

@@ -10,6 +10,7 @@
 #include "depthmocap/joints.h"
 #include "depthmocap/pose.h"
 #include "depthmocap/track_state.h"
+#include "depthmocap/tracked_frame.h"
 #include "depthmocap/world_frame.h"
 
 namespace depthmocap {
@@ -32,6 +33,12 @@ struct PoseRow {
   Pose q = Pose::Zero();
   Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
 };
+
+// What a joints file says about a tracked frame.
+JointsRow jointsRow(const TrackedFrame& tracked);
+// The lines of a joints file, with their ends: its header, and a row.
+std::string jointsHeader();
+std::string jointsLine(const JointsRow& row);
 
 // Columns beyond the known ones and lines that start with # are skipped. A damaged row (too few fields, no number,
 // frame numbers or times that do not grow, a confidence outside [0, 1]) throws Error with file and line. Truth and

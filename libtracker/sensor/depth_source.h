@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "depthmocap/camera.h"
 #include "depthmocap/depth_frame.h"
 #include "libtracker/recording/recording.h"
 
@@ -16,15 +17,6 @@ struct SensorFrame {
   // sensor's own, from 0 [s]. Both grow over an unplugged cable, too.
   DepthFrame depth;
   SensorClock::time_point taken;  // when the sensor took it, on this computer's clock; never later than now
-};
-
-// What a source has after waiting for it.
-enum class SourceState {
-  Frame,    // a frame
-  Waiting,  // none yet
-  Damaged,  // a frame came that cannot be used; problem() says why
-  Lost,     // the camera is gone; problem() says why. A source that cannot come back stays lost
-  Ended,    // a recording is over
 };
 
 // A live camera, or a recording that behaves as one. Used by one thread at a time.

@@ -5,8 +5,10 @@
 #include <linux/videodev2.h>
 
 #include "depthmocap/error.h"
-#include "libtracker/openni/openni_runtime.h"
 #include "libtracker/sensor/v4l2_format.h"
+#ifdef DEPTHMOCAP_OPENNI2
+#include "libtracker/openni/openni_runtime.h"
+#endif
 
 namespace depthmocap {
 
@@ -34,6 +36,7 @@ std::string depthFormats(V4l2System& system, int device) {
 
 std::vector<FoundCamera> listOpenNiCameras() {
   std::vector<FoundCamera> found;
+#ifdef DEPTHMOCAP_OPENNI2
   try {
     for (const OpenNiDevice& device : openNiDevices(*OpenNiRuntime::start())) {
       found.push_back({"openni2:" + device.uri, device.vendor + " " + device.name, ""});
@@ -41,6 +44,7 @@ std::vector<FoundCamera> listOpenNiCameras() {
   } catch (const Error&) {
     return {};  // no driver, no camera
   }
+#endif
   return found;
 }
 

@@ -1,17 +1,10 @@
 #pragma once
-#include <string>
 #include <vector>
 
+#include "depthmocap/camera.h"
 #include "libtracker/sensor/v4l2_system.h"
 
 namespace depthmocap {
-
-// A camera that is there.
-struct FoundCamera {
-  std::string source;   // its name for openSource
-  std::string name;     // of maker and model
-  std::string formats;  // V4L2: the pixel formats that hold depth
-};
 
 // Cameras of the OpenNI2 runtime; none where the runtime cannot start.
 std::vector<FoundCamera> listOpenNiCameras();

@@ -4,11 +4,13 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/core/parse_number.h"
-#include "libtracker/openni/openni_runtime.h"
-#include "libtracker/sensor/openni_source.h"
 #include "libtracker/sensor/replay_source.h"
 #include "libtracker/sensor/returning_source.h"
 #include "libtracker/sensor/v4l2_source.h"
+#ifdef DEPTHMOCAP_OPENNI2
+#include "libtracker/openni/openni_runtime.h"
+#include "libtracker/sensor/openni_source.h"
+#endif
 
 namespace depthmocap {
 
@@ -25,11 +27,17 @@ SourceName split(std::string_view name) {
   return {name.substr(0, colon), name.substr(colon + 1)};
 }
 
+#ifdef DEPTHMOCAP_OPENNI2
 // Holds the runtime while the camera is away: the runtime hears when it comes back.
 std::unique_ptr<DepthSource> openReturningOpenNi(const std::string& uri, const SourceOptions& options) {
   return std::make_unique<ReturningSource>(
       [uri, options, runtime = OpenNiRuntime::start()] { return openOpenNiCamera(uri, options); });
 }
+#else
+std::unique_ptr<DepthSource> openReturningOpenNi(const std::string&, const SourceOptions&) {
+  throw Error("this build has no OpenNI2", "openni2", "configure it with -DDEPTHMOCAP_OPENNI2=ON");
+}
+#endif
 
 }  // namespace
 

@@ -3,16 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "depthmocap/camera.h"
 #include "libtracker/sensor/depth_source.h"
 
 namespace depthmocap {
-
-// A picture size and rate that a camera is asked for.
-struct DepthMode {
-  int width = 0;   // [px]
-  int height = 0;  // [px]
-  double fps = 0;  // [1/s]; 0 = any
-};
 
 // What one may say about a source beyond its name.
 struct SourceOptions {

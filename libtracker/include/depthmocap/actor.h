@@ -4,6 +4,7 @@
 #include <string>
 
 #include "depthmocap/body_shape.h"
+#include "depthmocap/export.h"
 #include "depthmocap/skeleton.h"
 #include "depthmocap/surface_model.h"
 
@@ -46,21 +47,21 @@ struct Actor {
 };
 
 // A body of average proportions of this stature [m] (1.0 .. 2.2). Throws Error for another stature.
-Actor averageActor(double stature_m);
+DEPTHMOCAP_API Actor averageActor(double stature_m);
 
 // Reads an actor file (JSON, docs/reference/formats.md). Optional entries take the average body's value; the format,
 // the version and nine bone lengths are required. The body is as tall as the file says; Tracker and Session track it as
 // tall as the camera sees it (asSeen). Throws Error naming the file and the key: a missing file, no JSON, another
 // format, a length outside 5 mm .. 1.5 m, a stature that differs from the bones' by more than 5 %, an unknown bone or
 // part.
-Actor readActorFile(const std::filesystem::path& path);
+DEPTHMOCAP_API Actor readActorFile(const std::filesystem::path& path);
 
 // Writes a measured actor, whole or not at all. Throws Error where the file cannot be written or the actor was not
 // measured.
-void writeActorFile(const std::filesystem::path& path, const Actor& actor);
+DEPTHMOCAP_API void writeActorFile(const std::filesystem::path& path, const Actor& actor);
 
 // The same body as tall as the calibrating camera saw it, whose depth may be a few per cent off: scaled by
 // 1 / depth_scale. An average actor is returned as it is.
-Actor asSeen(const Actor& actor);
+DEPTHMOCAP_API Actor asSeen(const Actor& actor);
 
 }  // namespace depthmocap

@@ -2,6 +2,8 @@
 #include <array>
 #include <string_view>
 
+#include "depthmocap/export.h"
+
 namespace depthmocap {
 
 // Sizes of a body [m], joint centre to joint centre, left and right equal; the paper's s. Defaults: an adult of 1.77 m,
@@ -20,7 +22,7 @@ struct BoneLengths {
   double hip_drop = 0.030;        // hips below the pelvis
   double shoulder_drop = 0.050;   // shoulders below the neck in the T-pose
 
-  [[nodiscard]] BoneLengths scaled(double factor) const;
+  [[nodiscard]] DEPTHMOCAP_API BoneLengths scaled(double factor) const;
 };
 
 inline constexpr int kBoneLengthCount = 12;
@@ -35,10 +37,10 @@ inline constexpr std::array<double BoneLengths::*, kBoneLengthCount> kBoneLength
     &BoneLengths::neck_to_head, &BoneLengths::spine,          &BoneLengths::hip_drop,  &BoneLengths::shoulder_drop};
 
 // Standing height [m] of a body with these lengths: ankle height + legs + torso + neck_to_head + half a head.
-double statureOf(const BoneLengths& lengths);
+DEPTHMOCAP_API double statureOf(const BoneLengths& lengths);
 // Ankle joint above the floor [m] in the zero pose.
-double ankleHeight(const BoneLengths& lengths);
+DEPTHMOCAP_API double ankleHeight(const BoneLengths& lengths);
 // The average body scaled to a stature [m] (> 0).
-BoneLengths averageBoneLengths(double stature_m);
+DEPTHMOCAP_API BoneLengths averageBoneLengths(double stature_m);
 
 }  // namespace depthmocap

@@ -2,13 +2,15 @@
 #include <filesystem>
 #include <memory>
 
+#include "depthmocap/export.h"
+
 namespace depthmocap {
 
 class PartClassifier;
 struct PoseDatabase;
 
 // What the tracker has learned beforehand. Constant and cheap to copy: trackers on several threads share it.
-struct Models {
+struct DEPTHMOCAP_API Models {
   std::shared_ptr<const PartClassifier> classifier;  // which body part a pixel belongs to
   std::shared_ptr<const PoseDatabase> database;      // poses of people
 

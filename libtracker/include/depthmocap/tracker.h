@@ -6,6 +6,7 @@
 #include "depthmocap/actor.h"
 #include "depthmocap/camera_model.h"
 #include "depthmocap/depth_frame.h"
+#include "depthmocap/export.h"
 #include "depthmocap/models.h"
 #include "depthmocap/tracked_frame.h"
 
@@ -15,7 +16,7 @@ struct TrackerConfig;
 
 // Tracks one actor through the frames of one camera (Su, Chai, Xia 2016; docs/architecture.md).
 // Deterministic: the same frames give the same results for any number of threads. Not thread-safe.
-class Tracker {
+class DEPTHMOCAP_API Tracker {
  public:
   // With the default configuration. Without an actor tracking starts from an average body and fits its size over the
   // first seconds; a given actor keeps its size. Throws Error where a part of the models is missing or the camera has
@@ -39,8 +40,8 @@ class Tracker {
   // The same, and the next frame looks for the person nearest to this point [m], camera frame.
   void lockOn(const Eigen::Vector3d& p_camera);
   // Between frames: the same person with another body, for example that of a calibration that has just ended. Tracking
-  // goes on; nothing is loaded or searched for, so no frame waits. The body keeps its size, also after reset(). Poses are
-  // still looked up with the proportions that the tracker began with, at the new body's size.
+  // goes on; nothing is loaded or searched for, so no frame waits. The body keeps its size, also after reset(). Poses
+  // are still looked up with the proportions that the tracker began with, at the new body's size.
   void use(const Actor& actor);
 
   // The body in use.

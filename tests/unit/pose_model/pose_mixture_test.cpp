@@ -1,5 +1,3 @@
-#include "forest/pose_model/pose_mixture.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "depthmocap/error.h"
+#include "forest/pose_model/fit_pose_mixture.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/joint_limits.h"
 #include "tests/support/temporary_folder.h"

@@ -6,14 +6,12 @@
 #include <vector>
 
 #include "depthmocap/pose.h"
-#include "libtracker/posedb/pose_database.h"
-
 namespace depthmocap {
 
 // A learned model of natural poses: a mixture of local linear Gaussians over the DoFs that do not depend on where the
-// actor stands (mixtures of factor analysers in spirit: Ghahramani and Hinton 1996; fitted here by k-means and a PCA a
-// cluster). It keeps statistics of many poses a component, no pose itself. Samples of it fill the pose database that
-// ships.
+// actor stands (mixtures of factor analysers in spirit: Ghahramani and Hinton 1996; fitted by k-means and a PCA per
+// cluster, forest/pose_model). It keeps statistics of many poses a component, no pose itself. Samples of it fill the
+// pose database that ships.
 struct PoseMixture {
   static constexpr int kDims = 10;  // principal directions a component
   struct Component {
@@ -26,18 +24,6 @@ struct PoseMixture {
   std::vector<Component> components;
   std::string origin;  // one line: data and command
 };
-
-struct PoseMixtureConfig {
-  int components = 300;    // (>= 1) clusters to start from
-  int min_poses = 40;      // (> PoseMixture::kDims) a smaller cluster is dissolved into its neighbours
-  int iterations = 25;     // (>= 1) of k-means
-  std::uint64_t seed = 1;  // of the first centres
-  int threads = 2;         // (>= 1)
-  void validate() const;
-};
-
-// Throws Error if the database is smaller than one component.
-PoseMixture fitPoseMixture(const PoseDatabase& database, const PoseMixtureConfig& config);
 
 // `count` poses within joint limits and within two deviations of their component, components drawn by the square root
 // of their weight so that rare poses are not crowded out by walking.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forest/pose_model/pose_mixture.h"
 #include "libtracker/core/random.h"
+#include "libtracker/posedb_build/pose_mixture.h"
 #include "libtracker/skeleton/joint_limits.h"
 
 namespace depthmocap {

@@ -5,12 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "depthmocap/export.h"
 #include "depthmocap/joints.h"
 
 namespace depthmocap {
 
 // Where some joints of one body should be: the input of inverse kinematics.
-struct JointTargets {
+struct DEPTHMOCAP_API JointTargets {
   JointPositions p_world = JointPositions::Zero();  // [m] y up; the columns of the joints that are given
   std::array<bool, kJointCount> given{};
 
@@ -25,6 +26,6 @@ inline constexpr double kFarthestTarget_m = 100.0;
 inline constexpr double kWidestTargets_m = 4.0;
 
 // The joint of this name (kJointNames); nothing if there is none.
-std::optional<Joint> jointNamed(std::string_view name);
+DEPTHMOCAP_API std::optional<Joint> jointNamed(std::string_view name);
 
 }  // namespace depthmocap

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "depthmocap/error.h"
-#include "forest/pose_model/pose_mixture.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/posedb_build/pose_mixture.h"
 
 // Layout, little-endian: "DMCPMIX1", u32 length of origin, origin, u32 components, then a component: f32 weight and its
 // numbers as i16: mean [1e-4 rad], basis [1/32767], deviation [1e-4 rad].
