@@ -6,7 +6,7 @@ class App;
 
 namespace depthmocap {
 
-// ik evaluate: the experiment of docs/ik.md.
+// ik evaluate: the experiment of docs/lab/ik.md.
 void addIkEvaluateCommand(CLI::App& ik);
 
 }  // namespace depthmocap

@@ -6,7 +6,7 @@
 
 namespace depthmocap {
 
-// Answers POST /ik: JSON in, JSON out, as docs/ik.md describes.
+// Answers POST /ik: JSON in, JSON out, as docs/reference/stream.md describes.
 class IkRequests {
  public:
   explicit IkRequests(const IkCommandOptions& options);  // loads what every prior needs

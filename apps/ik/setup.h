@@ -27,7 +27,7 @@ std::shared_ptr<const LearnedPoses> ikLearnedPoses(const IkCommandOptions& optio
 // The value with this name, of those in ik_solver.h.
 IkMethod ikMethodNamed(const std::string& name);
 IkPrior ikPriorNamed(const std::string& name);
-// The prior where none is named: the one that measured best (docs/ik.md), none for a method that knows no prior.
+// The prior where none is named: the one that measured best (docs/lab/ik.md), none for a method that knows no prior.
 IkPrior defaultPrior(IkMethod method);
 
 }  // namespace depthmocap

@@ -14,7 +14,7 @@ void listCameras() {
   if (cameras.empty()) {
     throw Error(
         "no camera found", "OpenNI2 and V4L2",
-        "docs/cameras.md says what to check: cable and power, rights, kernel drivers, the OpenNI2 drivers folder");
+        "docs/guide/cameras.md says what to check: cable and power, rights, kernel drivers, the OpenNI2 drivers folder");
   }
   for (const FoundCamera& camera : cameras) {
     std::cout << camera.source << "  " << camera.name;

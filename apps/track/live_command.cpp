@@ -136,7 +136,7 @@ void addLiveCommand(CLI::App& app) {
   addTrackOptions(*command, options->track);
   command->footer(
       "A frame that comes while the one before is worked on replaces it, if it waits: delay never adds up.\n"
-      "A camera that is unplugged is waited for. docs/cameras.md says which cameras work.\n"
+      "A camera that is unplugged is waited for. docs/guide/cameras.md says which cameras work.\n"
       "Example:\n"
       "  depthmocap live --source openni2 --bvh take.bvh --record take\n"
       "  depthmocap live --source replay:recordings/walk --joints joints.csv");

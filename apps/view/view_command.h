@@ -16,7 +16,7 @@ struct ViewCommand {
   double x = 0, y = 0;     // Lock: place in the depth picture as shares of its width and height (0 .. 1)
 };
 
-// The command that a text message of the stream gives (docs/streaming.md). Error says what is wrong with it.
+// The command that a text message of the stream gives (docs/reference/stream.md). Error says what is wrong with it.
 ViewCommand parseViewCommand(const std::string& text);
 
 }  // namespace depthmocap

@@ -35,7 +35,7 @@ struct ViewPicture {
   std::vector<std::uint8_t> labels;
 };
 
-// Makes the binary message of a frame (docs/streaming.md, "frame"): JSON, then the depth picture in millimetres and the
+// Makes the binary message of a frame (docs/reference/stream.md, "frame"): JSON, then the depth picture in millimetres and the
 // part labels, at half the size or less. Keeps the height of the floor from frame to frame.
 class ViewFrameEncoder {
  public:

@@ -19,7 +19,7 @@ struct PoseCoder {
 };
 
 // g, (3.3) of MNN-IK: the difference of a pose from its reconstruction by an autoencoder, theta - theta^, in units of
-// each DoF's deviation. A row a DoF in place of the paper's one row of its square: as accurate (docs/ik.md), in less
+// each DoF's deviation. A row a DoF in place of the paper's one row of its square: as accurate (docs/lab/ik.md), in less
 // time.
 class AutoencoderPrior final : public PosePrior {
  public:

@@ -8,7 +8,7 @@
 namespace depthmocap {
 
 // Sends poses by the VMC protocol (OSC over UDP) to a program that shows an avatar: per frame two bundles of less than
-// 1,500 bytes with /VMC/Ext/OK, T, Root/Pos and Bone/Pos (docs/streaming.md).
+// 1,500 bytes with /VMC/Ext/OK, T, Root/Pos and Bone/Pos (docs/guide/page-and-streams.md).
 class VmcSender {
  public:
   // `target` is HOST:PORT; Error where it is none or the host is unknown.

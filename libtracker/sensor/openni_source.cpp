@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kNoCameraAdvice =
     "check that it is plugged in and has power, that its udev rules let you read it, that the kernel's gspca_kinect "
-    "does not hold it, and that a driver for it lies in OpenNI2/Drivers; docs/cameras.md has more";
+    "does not hold it, and that a driver for it lies in OpenNI2/Drivers; docs/guide/cameras.md has more";
 
 std::string_view withoutPort(std::string_view uri) {
   return uri.substr(0, uri.find('@'));

@@ -7,7 +7,7 @@
 namespace depthmocap {
 
 // Calms a stream of poses with a One-Euro filter on each degree of freedom. One knob; what it costs in delay and gains
-// in calm is measured in docs/streaming.md.
+// in calm is measured in docs/lab/smoothing.md.
 class PoseSmoother {
  public:
   // `strength` in [0, 1]; 0 leaves poses as they are.

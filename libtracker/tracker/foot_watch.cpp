@@ -6,7 +6,7 @@
 namespace depthmocap {
 namespace {
 
-// Chosen on rendered motions that are in no accuracy figure (docs/streaming.md, "Feet that stand").
+// Chosen on rendered motions that are in no accuracy figure (docs/lab/smoothing.md, "Feet that stand").
 constexpr double kRestSpeed_m_s = 0.25;  // the noise of a foot that rests stays below it
 constexpr double kDownHeight_m = 0.06;   // above where the point is in a standing body
 constexpr double kUpHeight_m = 0.10;

@@ -6,7 +6,7 @@
 
 namespace depthmocap {
 
-// The parts of the method that can be left out, to measure what each is worth (docs/accuracy.md): the terms of equation
+// The parts of the method that can be left out, to measure what each is worth (docs/lab/accuracy.md): the terms of equation
 // (5) and what we add to the paper.
 std::vector<std::string> optionalParts();
 

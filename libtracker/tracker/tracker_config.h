@@ -30,7 +30,7 @@ struct TrackPolicy {
   void validate() const;
 };
 
-// Weights of the solve by measurement (docs/accuracy.md): on radians the paper's prior and smoothness are too weak
+// Weights of the solve by measurement (docs/lab/accuracy.md): on radians the paper's prior and smoothness are too weak
 // against markers that are centimetres off, and the dense term knows more than the markers.
 MapConfig measuredWeights();
 

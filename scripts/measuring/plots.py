@@ -1,4 +1,4 @@
-"""Pictures of docs/accuracy.md, with Debian's python3-matplotlib."""
+"""Pictures of docs/lab/accuracy.md, with Debian's python3-matplotlib."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -18,7 +18,7 @@ def save(figure, name):
     figure.tight_layout()
     figure.savefig(folder / name, dpi=110, bbox_inches="tight", metadata={"Software": None})
     plt.close(figure)
-    return f"![{name.removesuffix('.png').replace('-', ' ')}](figures/{name})"
+    return f"![{name.removesuffix('.png').replace('-', ' ')}](../figures/{name})"
 
 
 def curves(name, panels, x_label, y_label, columns=2, y_top=None, log_x=False):

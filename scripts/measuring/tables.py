@@ -1,9 +1,9 @@
-"""Tables and sections of pages, docs/accuracy.md unless another is named."""
+"""Tables and sections of pages, docs/lab/accuracy.md unless another is named."""
 import re
 
 from measuring.lab import ROOT
 
-PAGE = ROOT / "docs" / "accuracy.md"
+PAGE = ROOT / "docs" / "lab" / "accuracy.md"
 
 
 def table(header, rows):

@@ -1,6 +1,6 @@
 // The search for nearest poses against the exhaustive search of equation (3): recall and time by the number of
 // candidates, over the queries of a tracked recording, and how often each size (K, B) of the local model is chosen.
-// Prints JSON; see scripts/experiments and docs/accuracy.md.
+// Prints JSON; see scripts/experiments and docs/lab/accuracy.md.
 //
 //   search_experiment REC --posedb DB [--candidates 64 128 ...]
 #include <CLI/CLI.hpp>
