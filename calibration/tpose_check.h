@@ -8,7 +8,7 @@
 
 namespace depthmocap {
 
-// What is wrong with how an actor stands for a calibration. In the order in which they are told.
+// Faults of an actor's T-pose, in the order in which they are reported.
 enum class TPoseFault {
   None,
   Nobody,

@@ -209,7 +209,7 @@ void learnPriors(const LearnPriorsOptions& o) {
   };
   std::string report = fmt::format("{}\n\ntime         {:.0f} s\nfile         {:.2f} MB\n", learned.origin, seconds,
                                    static_cast<double>(fs::file_size(o.out)) / kMegabyte);
-  report += "what is lost on the way through a code, root mean square, in deviations of a DoF:\n";
+  report += "reconstruction error (RMS, in standard deviations per DoF):\n";
   report += errors("learned", database);
   if (check.size() > 0) report += errors("others", check);
   fmt::print("{}", report);

@@ -23,7 +23,7 @@ struct TriangleMesh {
   std::vector<std::uint8_t> part;         // Part
 };
 
-// What to compute beside depth and parts.
+// Optional outputs in addition to depth and parts.
 struct RenderOptions {
   bool incidence = false;
   // Position [m] in the camera frame of the sensor's light source; set = compute `lit`.

@@ -14,7 +14,7 @@ struct CurvePoint {
   double mean_accuracy = 0;  // over the parts
 };
 
-// What is told about a trained forest.
+// The contents of a training report.
 struct TrainingReport {
   std::string title;
   std::string command;     // that trained it

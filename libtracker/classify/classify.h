@@ -13,7 +13,7 @@ namespace depthmocap {
 // Working memory of classify(), for reuse.
 struct ClassifyMemory {
   ActorDepth actor;
-  // What the trees say of each pixel: the sum of its leaves.
+  // The votes of the trees for each pixel: the sum of the leaves that it reached.
   std::vector<std::array<VoteRow, kFacingCount>> votes;
   std::vector<std::array<double, kFacingCount>> evidence;  // of some pixels each
 };

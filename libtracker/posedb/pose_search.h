@@ -22,7 +22,7 @@ struct PoseSearchConfig {
   void validate() const;  // throws Error naming field, value and rule
 };
 
-// What is searched for.
+// The markers and the history to search for.
 struct PoseQuery {
   MarkerSet markers;            // world frame (y up)
   bool has_history = false;     // whether the two poses before are known

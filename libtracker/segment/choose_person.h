@@ -26,14 +26,14 @@ struct ChoiceContext {
 // Which component is the actor.
 struct Choice {
   std::int32_t person = kNoComponent;
-  float score = 0;    // of that one's looks: large in the image and near, shaped like a person
+  float score = 0;    // how much it looks like a person: large in the image, near, of a person's shape
   bool sure = false;  // no mere remnant of the actor
 };
 
-// Who is known to be the actor stays it, also while hidden in part, unless somebody else looks far more like a person
-// than the actor usually does: then a thing was followed. If nobody is known to be the actor, or a small piece only:
-// the one that looks most like a person near the expected place, but nobody who is known to be somebody else. `scores`
-// receives the looks of each component.
+// Keeps the current actor, even when partly occluded. Switches only if another component scores far above the actor's
+// usual score, which means that an object was being tracked. If no component, or only a small one, is known to be the
+// actor: takes the component near the expected place that looks most like a person, never one that is known to be
+// another person. `scores` receives the score of each component.
 Choice choosePerson(const std::vector<Component>& components, const SegmentConfig& config, const ChoiceContext& context,
                     std::vector<float>& scores);
 

@@ -126,8 +126,8 @@ void Segmenter::Impl::removeRoom() {
   measureBoxShares(normals, finder, up, box_shares);
 }
 
-// Who is who in the present frame. What appears anew where the hidden actor is expected is the actor, also where it
-// touches somebody else.
+// Assigns identities in the present frame. Surface that appears anew where the hidden actor is expected is the actor's,
+// also where it touches another person.
 void Segmenter::Impl::recallPeople(const ExpectedActor* expected) {
   if (expected == nullptr || std::isinf(expected->unseen_s)) memory.forget();
   memory.recall(cloud, known);

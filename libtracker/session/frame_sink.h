@@ -9,7 +9,7 @@
 
 namespace depthmocap {
 
-// What a session with a camera knows about itself at one moment.
+// State of a session with a camera at one moment.
 struct SessionStatus {
   CaptureStatus camera;
   RecorderStatus recording;   // all zero where nothing is recorded
@@ -33,7 +33,7 @@ struct SessionFrame {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  // What the frame refers to is valid during the call only.
+  // The frame and everything that it refers to are valid during the call only.
   virtual void onFrame(const SessionFrame& frame) = 0;
   // With a camera, about five times a second, also while no frame comes.
   virtual void onStatus(const SessionStatus&) {}

@@ -19,7 +19,7 @@ struct ReplaySessionOptions {
   std::string name = "recording";  // of the recording, in messages
 };
 
-// How a long run talks to whoever started it. Each may be empty.
+// Callbacks of a long run. Each may be empty.
 struct ReplayHooks {
   std::function<void(std::size_t done, std::size_t total)> progress;
   std::function<void(const std::string& message)> warn;  // a frame that cannot be read

@@ -44,7 +44,7 @@ struct MapInput {
   double time_ratio = 1.0;                  // (> 0) time since q_prev over the time between q_prev2 and q_prev
 };
 
-// What the solve found. e_*: the terms of (5) without their lambda, at the result.
+// Result of a solve. e_*: the terms of (5) without their lambda, at the result.
 struct MapSummary {
   double energy = 0;        // lambda-weighted sum of all terms
   double e_marker = 0;      // confidence-weighted

@@ -7,8 +7,8 @@
 
 namespace depthmocap {
 
-// What one image says of one person, seen from one side: the input of the fit. Supposing that the camera sees another
-// side gives another Evidence.
+// The measurements of one person in one image, under the assumption that the camera sees one side of the person: the
+// input of the fit. Another assumed side gives another Evidence.
 struct Evidence {
   ClassifiedPixels pixels;             // (1)
   MarkerSet markers_camera;            // (2) [m]

@@ -10,7 +10,7 @@
 
 namespace depthmocap {
 
-// What is known of one actor from the frames before: poses, size, feet, where to look.
+// State of one actor between frames: poses, size, feet, where to look next.
 class TrackMemory {
  public:
   // No actor given: an average body whose size is fitted.
@@ -36,7 +36,7 @@ class TrackMemory {
   [[nodiscard]] const SizeAdapter& size() const { return size_; }
   [[nodiscard]] const Actor& actor() const { return size_.actor(); }
   [[nodiscard]] TrackState state() const { return history_.state(); }
-  [[nodiscard]] const Pose& pose() const { return history_.prev(); }  // the last one; means nothing when lost
+  [[nodiscard]] const Pose& pose() const { return history_.prev(); }  // the last one; undefined when lost
   [[nodiscard]] const FootContacts& contacts() const { return feet_.contacts(); }
 
  private:

@@ -97,7 +97,7 @@ bool Tracker::Impl::enough(const PersonRegion& person) const {
          person.visible_share >= config.policy.min_visible;
 }
 
-// What the caller sees of the frame.
+// Fills the result that the caller gets.
 void Tracker::Impl::report(const PersonRegion& person, const std::optional<Hypothesis>& pose) {
   labelImage(evidence.pixels, person.mask, out.labels);
   out.markers_camera = evidence.markers_camera;

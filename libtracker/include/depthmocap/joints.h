@@ -34,7 +34,7 @@ inline constexpr std::array<std::string_view, kJointCount> kJointNames = {
     "left_wrist", "right_shoulder", "right_elbow", "right_wrist", "left_hip",      "left_knee",
     "left_ankle", "left_toe",       "right_hip",   "right_knee",  "right_ankle",   "right_toe"};
 
-// Joint positions [m], one column a joint; which frame is said where it is used.
+// Joint positions [m], one column per joint. Each use states the frame.
 using JointPositions = Eigen::Matrix<double, 3, kJointCount>;
 
 }  // namespace depthmocap

@@ -5,10 +5,10 @@
 
 namespace depthmocap {
 
-// Up to 15 labelled 3D points, one a part (index = partIndex(part)); the paper's a~. Frame: as said where it is used.
+// Up to 15 labelled 3D points, one per part (index = partIndex(part)); the paper's a~. Each use states the frame.
 struct MarkerSet {
   Eigen::Matrix<double, 3, kPartCount> position = Eigen::Matrix<double, 3, kPartCount>::Zero();  // [m]
-  // [0, 1] weight of the marker in every later term; 0 = not seen, its position means nothing.
+  // [0, 1] weight of the marker in every later term; 0 = not seen, its position is undefined.
   Eigen::Matrix<double, kPartCount, 1> confidence = Eigen::Matrix<double, kPartCount, 1>::Zero();
 
   [[nodiscard]] bool seen(int part_index) const { return confidence[part_index] > 0; }

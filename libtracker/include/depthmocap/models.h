@@ -9,7 +9,7 @@ namespace depthmocap {
 class PartClassifier;
 struct PoseDatabase;
 
-// What the tracker has learned beforehand. Constant and cheap to copy: trackers on several threads share it.
+// The learned models of the tracker. Constant and cheap to copy: trackers on several threads share them.
 struct DEPTHMOCAP_API Models {
   std::shared_ptr<const PartClassifier> classifier;  // which body part a pixel belongs to
   std::shared_ptr<const PoseDatabase> database;      // poses of people

@@ -3,7 +3,7 @@
 
 namespace depthmocap {
 
-// What the tracker knows about a frame. Coasting: the pose is carried on by the prior without enough evidence.
+// State of the track in one frame. Coasting: the pose is extrapolated, because the frame gives too little evidence.
 enum class TrackState { Tracking, Coasting, Lost };
 
 constexpr std::string_view trackStateName(TrackState state) {
