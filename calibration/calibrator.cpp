@@ -27,16 +27,29 @@
 namespace depthmocap {
 namespace {
 
-constexpr int kFewestParts = 13;         // of the 15 markers that a good frame shows
-constexpr double kRivalShare = 0.35;     // of the actor's pixels: less is no second person
-constexpr double kTwoPeopleShare = 0.3;  // of the frames with a T-pose
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// [markers] Least of the 15 that a good frame shows.
+constexpr int kFewestParts = 13;
+// Share of the actor's pixels: what has less is no second person.
+constexpr double kRivalShare = 0.35;
+// Share of the frames with a T-pose: from here on two people are in view.
+constexpr double kTwoPeopleShare = 0.3;
+// [m] A second person is at least this tall.
 constexpr double kMinRivalHeight_m = 1.0;
-constexpr std::size_t kFewestPixels = 300;  // classified, of an actor
+// [px] Least classified of an actor.
+constexpr std::size_t kFewestPixels = 300;
+// [px] Each kStride_px-th pixel is looked at in x and y, as by the tracker.
 constexpr int kStride_px = 2;
+// A larger relative difference from the given stature is the camera's: calibrations of bare rendered bodies are about 1
+// % off at most (scripts/measure-calibration).
 constexpr double kScaleTolerance = 0.02;
-constexpr double kLeastConfidence = 0.2;    // good fits have 0.6 and more, rough old recordings 0.4
-constexpr std::size_t kFewestPoses = 4;     // other than a T-pose, where there is none
-constexpr double kAverageStature_m = 1.69;  // of the bodies that the T-pose forest was trained with
+// Least confidence of a fit that is believed: good fits have 0.6 and more, rough old recordings 0.4.
+constexpr double kLeastConfidence = 0.2;
+// [frames] Fewest that a calibration without a T-pose needs.
+constexpr std::size_t kFewestPoses = 4;
+// [m] Stature of the average body that the T-pose forest was trained with.
+constexpr double kAverageStature_m = 1.69;
 
 const TPoseVerdict kTwoPeople{TPoseFault::TwoPeople, "two people are in view: only one may be", 0};
 

@@ -19,8 +19,8 @@ constexpr double kUsualDepth = 0.7;
 constexpr double kDepthDeviation = 0.06;
 constexpr double kSampleDeviation_m = 0.01;
 constexpr double kIndependent = 20;  // samples of this deviation that all of them count as
-constexpr double kOutermost =
-    0.95;  // of the half width: nearer to the outline a small error of it is a large one of depth
+// Share of the half width: nearer to the outline a small error of it is a large one of depth.
+constexpr double kOutermost = 0.95;
 
 // The front half of an ellipse of known width: front = center + half_depth * roundness(across).
 struct Front {

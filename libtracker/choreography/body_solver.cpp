@@ -16,15 +16,27 @@ using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kHeelBehindAnkle = 0.05;  // [m]
-constexpr double kOnGround = 0.04;         // [m] a foot below this lift stands or is about to
-constexpr double kMinKneeFlexion = 0.05;   // [rad]
-constexpr double kEasyKneeFlexion = 0.13;  // [rad] a standing knee is not locked
-constexpr double kMaxKneeFlexion = 2.65;   // [rad]
-constexpr double kSoftReach = 0.94;        // share of the leg's length
-constexpr double kFreeLift = 0.10;         // [m] from here on a foot's place need not be met
-constexpr double kLimitMargin = 0.01;      // [rad]
-constexpr double kKneeFollowsFoot = 0.85;  // share of the foot's turn that comes from the hip
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+// They make poses that look natural; no measured motion was fitted.
+
+// [m] Distance of the heel behind the ankle.
+constexpr double kHeelBehindAnkle = 0.05;
+// [m] A foot lifted by less stands or is about to.
+constexpr double kOnGround = 0.04;
+// [rad] Least flexion of the knee: the leg is never quite straight.
+constexpr double kMinKneeFlexion = 0.05;
+// [rad] Flexion of a standing knee that is not locked.
+constexpr double kEasyKneeFlexion = 0.13;
+// [rad] Greatest flexion of the knee, 152 degrees.
+constexpr double kMaxKneeFlexion = 2.65;
+// Share of the leg's longest reach from which a foot in the air slows down towards its target.
+constexpr double kSoftReach = 0.94;
+// [m] A foot lifted by more need not meet its target.
+constexpr double kFreeLift = 0.10;
+// [rad] Distance that is kept from each joint limit.
+constexpr double kLimitMargin = 0.01;
+// Share of the foot's turn against the pelvis that comes from the hip; the ankle turns the rest.
+constexpr double kKneeFollowsFoot = 0.85;
 
 struct LegBones {
   Bone femur, tibia, foot;

@@ -11,14 +11,25 @@ namespace depthmocap {
 
 namespace {
 
-constexpr double kVoxelShare = 0.35;         // of the bandwidth: cubes small enough not to move a mode noticeably
-constexpr int kMaxStarts = 4;                // ascents from the densest places of a part
-constexpr std::size_t kMaxProbes = 256;      // cubes at which the density is looked up to find those places
-constexpr float kMinStartShare = 0.2F;       // of the best density; weaker places are not worth an ascent
-constexpr float kPredictionGain = 0.5F;      // a mode at the prediction beats a distant one up to 1.5 times as dense
-constexpr float kPredictionReach_m = 0.15F;  // how near counts as "at the prediction"
-constexpr double kFullAreaShare = 0.3;       // of the expected surface: from here on the area does not limit confidence
-constexpr double kRivalPenalty = 0.5;        // confidence lost to a rival mode of equal density
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// Edge of the voting cubes, as a share of the bandwidth: small enough not to move a mode noticeably.
+constexpr double kVoxelShare = 0.35;
+// Ascents per part, from its densest places.
+constexpr int kMaxStarts = 4;
+// [cubes] Most at which the density is looked up to find those places.
+constexpr std::size_t kMaxProbes = 256;
+// Share of the greatest density: weaker places are not worth an ascent.
+constexpr float kMinStartShare = 0.2F;
+// A mode at the prediction beats a distant one up to 1 + this times as dense.
+constexpr float kPredictionGain = 0.5F;
+// [m] Distance from the prediction at which that gain is halved.
+constexpr float kPredictionReach_m = 0.15F;
+// Share of the expected surface from which the area does not limit the confidence.
+constexpr double kFullAreaShare = 0.3;
+// Share of the confidence that a rival mode of equal density takes.
+constexpr double kRivalPenalty = 0.5;
+// Least confidence of a marker that was found.
 constexpr double kMinConfidence = 0.01;
 
 Eigen::Vector3f voteAt(const PartVotes& votes, int i) {

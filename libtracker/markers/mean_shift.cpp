@@ -4,6 +4,8 @@ namespace depthmocap {
 
 namespace {
 
+// [m] An ascent ends at a shorter step. Chosen by hand (docs/tuning.md): below a hundredth of
+// the bandwidth.
 constexpr float kConvergedStep_m = 0.0005F;
 
 Eigen::Map<const Eigen::ArrayXf> view(const std::vector<float>& values) {

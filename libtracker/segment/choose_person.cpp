@@ -7,37 +7,69 @@ namespace depthmocap {
 
 namespace {
 
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// Share of the image's cells that are measured: with fewer the background may have been removed.
 constexpr double kCutOutShare = 0.5;
+// Share of the measured cells: components from here on must fit a person's box where the background is removed.
 constexpr double kLargeShare = 0.15;
+// [m] Greatest width and height of a person where the background is removed.
 constexpr float kPersonBox_m = 2.4F;
+// [m] Greatest extent of a person along the optical axis.
 constexpr float kPersonDepth_m = 2.0F;
 
-// What a person looks like among furniture. Each measure is a share from 1 (as a person) down to kThingShare.
+// What a person looks like among furniture. Each measure is a share from 1 (as a person) down to kThingShare; above 0,
+// so that one bad measure alone rules nobody out.
 constexpr float kThingShare = 0.05F;
-constexpr float kMinPersonArea_m2 = 0.12F;  // a crouching or half-seen person; table legs are less
-constexpr float kWidest_m = 2.2F;           // outstretched arms
-constexpr float kUsualHeight_m = 1.3F;      // shorter pieces are less likely a standing person
-constexpr float kHeadWidth_m = 0.28F;       // mean width of the uppermost 20 cm: a head, two raised hands
-constexpr float kBoxTopWidth_m = 0.45F;     // the top of furniture
-constexpr float kBodyWidth_m = 0.60F;       // area / height
+// [m^2] Least surface in view of a crouching or half-seen person; table legs have less.
+constexpr float kMinPersonArea_m2 = 0.12F;
+// [m] Greatest width of a person in a room: outstretched arms.
+constexpr float kWidest_m = 2.2F;
+// [m] Shorter pieces are less likely a standing person, in proportion.
+constexpr float kUsualHeight_m = 1.3F;
+// [m] Mean width of the uppermost 20 cm up to which it is a head or two raised hands.
+constexpr float kHeadWidth_m = 0.28F;
+// [m] Mean width of the uppermost 20 cm from which it is the top of furniture.
+constexpr float kBoxTopWidth_m = 0.45F;
+// [m] Area over height up to which it is a body.
+constexpr float kBodyWidth_m = 0.60F;
+// [m] Area over height from which it is a sofa.
 constexpr float kSofaWidth_m = 1.10F;
-constexpr float kLargestArea_m2 = 0.95F;  // of one person from the front; two people or a cupboard have more
+// [m^2] Largest surface in view of one person, from the front.
+constexpr float kLargestArea_m2 = 0.95F;
+// [m^2] Surface in view from which it is two people or a cupboard.
 constexpr float kTooLargeArea_m2 = 1.4F;
-constexpr float kRoundShare = 0.75F;  // of a surface in two directions: bodies have less,
-constexpr float kBoxShare = 1.0F;     // cupboards more
-constexpr float kLimbedFill = 0.75F;  // of the upright rectangle around it: limbs and head leave more of it empty,
-constexpr float kBoxFill = 0.90F;     // cupboards less
-constexpr float kPanelThickness_m = 0.012F;   // a door or cupboard front; a body is 4 cm and more
-constexpr float kPanelNoise_per_m = 0.0015F;  // and what depth noise adds, times depth^2
-constexpr float kPanelShare = 0.001F;         // of a board where the background is removed
-constexpr float kCutBySideShare = 0.5F;       // who is half out of the view is less likely the actor
+// Share of the surface that faces its two main directions (surface_shape.h): bodies have less.
+constexpr float kRoundShare = 0.75F;
+// The same share of a perfect box; cupboards come near.
+constexpr float kBoxShare = 1.0F;
+// Filled share of the upright rectangle around it: limbs and head leave more of it empty.
+constexpr float kLimbedFill = 0.75F;
+// The same share from which it is a cupboard.
+constexpr float kBoxFill = 0.90F;
+// [m] Standard deviation across the surface of a door or the front of a cupboard; a body's is 4 cm and more.
+constexpr float kPanelThickness_m = 0.012F;
+// [1/m] What depth noise adds to that, times the square of the depth; as kDepthNoise_per_m (planes.h).
+constexpr float kPanelNoise_per_m = 0.0015F;
+// Score of a board where the background is removed. Where a board hid a tenth of the actor, joints were 25 mm off with
+// it and 0.8 m without (docs/tuning.md).
+constexpr float kPanelShare = 0.001F;
+// Factor of a component that the left or right border cuts: less likely the actor.
+constexpr float kCutBySideShare = 0.5F;
+// [m] Distance from the expected place at which a candidate counts half.
 constexpr float kNearExpected_m = 0.5F;
-constexpr float kExpectedReach_m = 1.0F;  // from the expected place,
-constexpr float kPace_m_s = 3.0F;  // and more the longer the actor was not seen: after a second it is the whole room
+// [m] Farthest that the actor can be from the expected place when just seen.
+constexpr float kExpectedReach_m = 1.0F;
+// [m/s] Growth of that distance while the actor is not seen: after a second it is the whole room.
+constexpr float kPace_m_s = 3.0F;
+// Factor of a candidate that is not the known actor, or far from the expected place.
 constexpr float kSomebodyElse = 0.02F;
-constexpr int kMinActorCells = 12;  // who is known may be hidden for the most part
-constexpr float kAlike = 0.1F;  // of the actor's usual looks; who has less is a chair rather than the actor come back
-constexpr float kRemnant = 0.25F;  // of the usual area; what is left may be a hand that was taken for the actor's
+// [cells] Least of the known actor, who may be hidden for the most part.
+constexpr int kMinActorCells = 12;
+// Share of the actor's usual score: what has less is a chair rather than the actor come back.
+constexpr float kAlike = 0.1F;
+// Share of the actor's usual area: less may be a hand that was taken for the actor's.
+constexpr float kRemnant = 0.25F;
 
 // 1 up to `full_at`, falling to kThingShare at `thing_at`.
 float likeness(float value, float full_at, float thing_at) {

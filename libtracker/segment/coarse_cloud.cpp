@@ -5,8 +5,11 @@
 namespace depthmocap {
 
 namespace {
+
+// [cells] Width of the coarse cloud, about. Chosen by hand (docs/tuning.md); with the
+// view of a Kinect a cell is 27 mm wide at 4 m.
 constexpr int kTargetWidth = 160;
-}
+}  // namespace
 
 void buildCoarseCloud(const DepthImage& depth, const CameraModel& camera, double min_depth_m, double max_depth_m,
                       CoarseCloud& cloud) {

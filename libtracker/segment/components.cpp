@@ -9,10 +9,16 @@ namespace depthmocap {
 
 namespace {
 
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// [m] Depth beyond which SegmentConfig::cluster_gap_m grows in proportion, as the distance of neighbouring cells does.
 constexpr float kGapGrowsFrom_m = 3.0F;
+// [m] Height of the uppermost slice, whose width tells a head from a cupboard's top.
 constexpr float kTopSlice_m = 0.2F;
-constexpr float kKnownShare = 0.2F;        // of a component's cells that must be somebody's for it to be
-constexpr int kMinCellsForThickness = 30;  // smaller pieces are never mistaken for a panel
+// Share of a component's cells that must be somebody's for the component to be.
+constexpr float kKnownShare = 0.2F;
+// [cells] Smaller components have no thickness and are never mistaken for a panel.
+constexpr int kMinCellsForThickness = 30;
 
 struct Step {
   int x;

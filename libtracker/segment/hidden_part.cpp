@@ -5,10 +5,16 @@
 namespace depthmocap {
 namespace {
 
-constexpr int kReach = 2;            // [cells] across the unmeasured seam at an edge
-constexpr float kInFront_m = 0.15F;  // more than depth noise
-constexpr int kMinCells = 8;         // of the outline
-constexpr float kMinShare = 0.01F;   // of the actor's cells
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// [cells] Widest unmeasured seam at an edge, across which something in front is looked for.
+constexpr int kReach = 2;
+// [m] What is nearer by this is in front: more than depth noise.
+constexpr float kInFront_m = 0.15F;
+// [cells] Least of the outline that something covers.
+constexpr int kMinCells = 8;
+// Least covered share of the actor's cells.
+constexpr float kMinShare = 0.01F;
 constexpr std::array<std::array<int, 2>, 4> kDirections{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 }  // namespace

@@ -5,9 +5,14 @@
 namespace depthmocap {
 namespace {
 
-constexpr float kSameSurface_m = 0.02F;  // this near, at the same cell, no other surface needs to be looked for
-constexpr float kReach_m = 0.08F;        // from frame to frame; a fast hand's cells may stay unknown
-constexpr int kReach = 5;                // [cells]
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// [m] A point this near in the same cell of the frame before is the same surface: no nearer one is looked for.
+constexpr float kSameSurface_m = 0.02F;
+// [m] Farthest that a surface moves from frame to frame; cells of a faster hand may stay unknown.
+constexpr float kReach_m = 0.08F;
+// [cells] The same in the image.
+constexpr int kReach = 5;
 
 }  // namespace
 

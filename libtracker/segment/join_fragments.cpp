@@ -9,20 +9,38 @@ namespace depthmocap {
 
 namespace {
 
-constexpr float kLimbGap_m = 0.35F;        // a leg behind a bent trunk, where the background is removed
-constexpr float kHiddenLimbGap_m = 0.45F;  // a leg or hand that comes out from behind the body, in a room
-constexpr float kRoomGap_m = 0.12F;        // a piece cut off by an arm or by noise, in a room
-constexpr float kArmReach_m = 0.75F;       // hand to body across an unmeasured forearm
-constexpr float kHandArea_m2 = 0.08F;      // hand and forearm, from the front
-constexpr float kLimbArea_m2 = 0.30F;      // a leg from the side
-constexpr float kLimbWidth_m = 0.6F;       // a leg in a stride
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+// Gaps are the shortest distances between the points of two pieces.
+
+// [m] Widest gap to a leg behind a bent trunk, where the background is removed.
+constexpr float kLimbGap_m = 0.35F;
+// [m] Widest gap to a leg or hand that comes out from behind the body, in a room.
+constexpr float kHiddenLimbGap_m = 0.45F;
+// [m] Widest gap to a piece cut off by an arm or by noise, in a room.
+constexpr float kRoomGap_m = 0.12F;
+// [m] Widest gap between hand and body across an unmeasured forearm.
+constexpr float kArmReach_m = 0.75F;
+// [m^2] Largest area in view of hand and forearm, from the front.
+constexpr float kHandArea_m2 = 0.08F;
+// [m^2] Largest area in view of a leg, from the side.
+constexpr float kLimbArea_m2 = 0.30F;
+// [m] Greatest width of a leg in a stride.
+constexpr float kLimbWidth_m = 0.6F;
+// [m] Greatest height of a leg.
 constexpr float kLegHeight_m = 1.1F;
-constexpr float kLegTopShare = 0.65F;        // of the body's height: a leg does not reach higher
-constexpr float kMinPieceArea_m2 = 0.0012F;  // smaller pieces are speckles
+// Share of the body's height above which no leg reaches.
+constexpr float kLegTopShare = 0.65F;
+// [m^2] Smaller pieces are speckles.
+constexpr float kMinPieceArea_m2 = 0.0012F;
+// [m] A taller piece beside the actor may be another person.
 constexpr float kOwnPersonHeight_m = 0.8F;
-constexpr float kOwnPersonArea_m2 = 0.3F;  // both legs of a tall adult, from the front
-constexpr std::size_t kSamples = 250;      // points of a component for distances between components
-constexpr int kContactReach = 3;           // [cells] silhouettes this near in the image touch
+// [m^2] A larger piece beside the actor may be another person: both legs of a tall adult, from the front.
+constexpr float kOwnPersonArea_m2 = 0.3F;
+// [points] About so many of each piece are compared for gaps; more take time.
+constexpr std::size_t kSamples = 250;
+// [cells] Silhouettes this near in the image touch.
+constexpr int kContactReach = 3;
+// [cells] Least number that touch with the actor in front.
 constexpr int kContactCells = 3;
 
 // More than a hand and a forearm.

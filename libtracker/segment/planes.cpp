@@ -19,24 +19,43 @@ namespace depthmocap {
 
 namespace {
 
-constexpr double kMaxTilt_rad = 30.0 * std::numbers::pi / 180.0;
-constexpr double kMaxWallTilt_rad = 10.0 * std::numbers::pi / 180.0;
-constexpr float kFloorNormal = 0.77F;  // cosine to the assumed up from which a cell may be floor: 30 degrees and noise
-constexpr float kWallNormal = 0.35F;   // sine of a wall cell's tilt, at most
-constexpr int kMaxPoints = 2000;       // for RANSAC
-constexpr int kMaxIterations = 100;
-constexpr int kMaxFloorTries = 3;  // table, platform, floor
-constexpr int kSettleRounds = 3;
-constexpr float kOnFloor = 0.93F;        // cosine between the surface at a cell and the floor; in corners it is less
-constexpr double kMinFloorShare = 0.02;  // of the measured cells
-constexpr float kMinCameraHeight_m = 0.2F;
-constexpr float kMinWallArea_m2 = 1.2F;
-constexpr float kMinWallWidth_m = 1.0F;
-constexpr int kMaxWallTries = 4;
-constexpr float kAlongPlane = 0.85F;  // cosine between the surface at a cell and the plane that it belongs to
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+// Exceptions are kMaxPoints and kMaxIterations: 3000 and 150 gave no better planes, but frames above 10 ms.
 
-constexpr double kFitDistance_m = 0.03;   // of RANSAC's inliers
-constexpr float kWallDistance_m = 0.06F;  // plus noise: what is wall
+// [rad] The promise of Segmenter: the camera is upright within 30 degrees.
+constexpr double kMaxTilt_rad = 30.0 * std::numbers::pi / 180.0;
+// [rad] Greatest angle between a wall and the vertical, which the floor gives where it is seen.
+constexpr double kMaxWallTilt_rad = 10.0 * std::numbers::pi / 180.0;
+// Least cosine between a floor cell's normal and the assumed up: 40 degrees, which are kMaxTilt_rad and noise.
+constexpr float kFloorNormal = 0.77F;
+// Greatest sine of a wall cell's tilt: 20 degrees, which are kMaxWallTilt_rad and noise.
+constexpr float kWallNormal = 0.35F;
+// [points] Most that RANSAC looks at, spread evenly.
+constexpr int kMaxPoints = 2000;
+// [samples] Most that RANSAC draws for one plane.
+constexpr int kMaxIterations = 100;
+// Planes tried downwards, each below the one before: a table, a platform, the floor.
+constexpr int kMaxFloorTries = 3;
+// Rounds of least squares that refine RANSAC's plane.
+constexpr int kSettleRounds = 3;
+// Least cosine between a cell's normal and the floor's while refining: 22 degrees; in corners it is less.
+constexpr float kOnFloor = 0.93F;
+// Least share of the measured cells that makes a floor.
+constexpr double kMinFloorShare = 0.02;
+// [m] Least height of the camera above the floor.
+constexpr float kMinCameraHeight_m = 0.2F;
+// [m^2] Least area in view of a wall; cupboard doors have less.
+constexpr float kMinWallArea_m2 = 1.2F;
+// [m] Least width of a wall.
+constexpr float kMinWallWidth_m = 1.0F;
+// Upright planes tried for walls.
+constexpr int kMaxWallTries = 4;
+// Least cosine between a cell's normal and the plane that it belongs to: 32 degrees.
+constexpr float kAlongPlane = 0.85F;
+// [m] Distance of RANSAC's inliers from the plane: about two standard deviations of the noise at 3 m.
+constexpr double kFitDistance_m = 0.03;
+// [m] Distance from the plane up to which a point is wall, in addition to noise.
+constexpr float kWallDistance_m = 0.06F;
 
 // How far from a wall a point still belongs to it [m]; walls are met at large angles.
 float wallTolerance(float depth_m) {

@@ -9,8 +9,10 @@ namespace depthmocap {
 
 namespace {
 
-constexpr float kGrowStep_m = 0.02F;  // between neighbouring pixels of one surface
-constexpr std::uint8_t kOpen = 2;     // mask value while working: no cell speaks for this pixel
+// [m] Largest step between neighbouring pixels of one surface. Chosen by hand (docs/tuning.md).
+constexpr float kGrowStep_m = 0.02F;
+constexpr std::uint8_t kOpen = 2;  // mask value while working: no cell speaks for this pixel
+// [m] Depth from which SegmentConfig::cluster_gap_m grows in proportion; as in components.cpp.
 constexpr float kGapGrowsFrom_m = 3.0F;
 
 struct CellBox {

@@ -21,16 +21,28 @@ namespace depthmocap {
 
 namespace {
 
-constexpr double kFloorMovedShare = 0.6;  // of the floor's cells left on it: the camera moved, look again
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// Share of the floor's cells that must still lie on it; with fewer the camera has moved.
+constexpr double kFloorMovedShare = 0.6;
+// [px] Image size that SegmentConfig::min_pixels is given for.
 constexpr double kReferencePixels = 320.0 * 240.0;
-constexpr float kUsualRate = 0.02F;     // a frame; how fast the actor's usual looks follow the present ones
-constexpr double kPlain = 0.6;          // of the actor in view: enough to say that another piece is not the actor's
-constexpr double kSurelyThere_s = 1.5;  // a hidden actor is about where expected for so long
-constexpr float kTrunk_m = 0.35F;       // horizontally around the expected place
-constexpr float kCompany_m = 1.0F;      // from the actor,
-constexpr int kCompanyFrames = 30;      // and how long it is reckoned with after it was last seen there
-constexpr float kCompanyLooks = 0.1F;   // of the actor's usual ones
-constexpr float kLargeThing_m2 = 0.3F;  // in view; it may be what somebody leans on
+// [1/frame] Rate at which the actor's usual score and area follow the present ones: a time constant of 50 frames.
+constexpr float kUsualRate = 0.02F;
+// Share of the actor in view that is enough to say that another piece is not the actor's.
+constexpr double kPlain = 0.6;
+// [s] Time for which a hidden actor is about where expected.
+constexpr double kSurelyThere_s = 1.5;
+// [m] Horizontal distance from the expected place within which something new is the hidden actor.
+constexpr float kTrunk_m = 0.35F;
+// [m] Distance from the actor within which somebody else is company, so that detached pieces may be theirs.
+constexpr float kCompany_m = 1.0F;
+// [frames] Time for which company is reckoned with after it was last seen.
+constexpr int kCompanyFrames = 30;
+// Share of the actor's usual score from which another component is somebody.
+constexpr float kCompanyLooks = 0.1F;
+// [m^2] Area in view from which a thing is told from the actor for good: somebody may lean on it.
+constexpr float kLargeThing_m2 = 0.3F;
 
 }  // namespace
 

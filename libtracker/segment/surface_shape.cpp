@@ -10,10 +10,17 @@ namespace depthmocap {
 
 namespace {
 
-constexpr int kNormalReach = 2;  // [cells] between a cell and the points that span its local plane
+// Chosen by hand: no comparison of values is on record (docs/tuning.md).
+
+// [cells] Distance between a cell and the four points that span its local plane.
+constexpr int kNormalReach = 2;
+// [m] Farthest that those points may lie from the cell, up to 3 m of depth; in proportion beyond.
 constexpr float kMaxNormalSpan_m = 0.25F;
-constexpr int kDirections = 24;  // horizontal directions of 15 degrees
+// Horizontal directions of 15 degrees each that are counted.
+constexpr int kDirections = 24;
+// Cosine to the vertical above which a cell faces up or down: 37 degrees.
 constexpr float kUpwards = 0.8F;
+// [cells] With fewer normals a component's roundness is not judged.
 constexpr float kMinVotes = 60;
 
 // Votes of a component's cells: horizontal directions, then up.
