@@ -3,18 +3,18 @@
 
 #include "apps/commands.h"
 #include "depthmocap/error.h"
-#include "libtracker/sensor/list_cameras.h"
+#include "libtracker/sensor/driver_table.h"
 
 namespace depthmocap {
 namespace {
 
 void listCameras() {
-  std::vector<FoundCamera> cameras = listOpenNiCameras();
-  for (FoundCamera& camera : listV4l2Cameras()) cameras.push_back(std::move(camera));
+  const DriverTable& drivers = cameraDrivers();
+  const std::vector<FoundCamera> cameras = drivers.list();
   if (cameras.empty()) {
-    throw Error(
-        "no camera found", "OpenNI2 and V4L2",
-        "docs/guide/cameras.md says what to check: cable and power, rights, kernel drivers, the OpenNI2 drivers folder");
+    throw Error("no camera found", drivers.listedTitles(),
+                "docs/guide/cameras.md says what to check: cable and power, rights, kernel drivers, the OpenNI2 "
+                "drivers folder");
   }
   for (const FoundCamera& camera : cameras) {
     std::cout << camera.source << "  " << camera.name;

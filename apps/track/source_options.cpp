@@ -3,13 +3,29 @@
 #include <CLI/CLI.hpp>
 
 #include "libtracker/recording/recording_header.h"
+#include "libtracker/sensor/driver_table.h"
 
 namespace depthmocap {
 
-void addSourceOptions(CLI::App& command, SourceChoice& c) {
+namespace {
+
+void addDriverOption(CLI::App& command, const DriverOption& option, SourceOptions& target) {
+  const auto set = option.set;
   command
-      .add_option("--source", c.source,
-                  "openni2, openni2:URI, v4l2:/dev/videoN, or replay:REC (a recording as if it were a camera)")
+      .add_option_function<std::string>(
+          std::string(option.flag), [set, &target](const std::string& text) { set(text, target); }, option.help)
+      ->type_name(std::string(option.value))
+      ->default_str(std::string(option.preset))
+      ->check([set](const std::string& text) {
+        SourceOptions unused;
+        return set(text, unused);
+      });
+}
+
+}  // namespace
+
+void addSourceOptions(CLI::App& command, SourceChoice& c) {
+  command.add_option("--source", c.source, cameraDrivers().help())
       ->type_name("SRC")
       ->check([](const std::string& name) { return checkSourceName(name); })
       ->required();
@@ -24,24 +40,15 @@ void addSourceOptions(CLI::App& command, SourceChoice& c) {
                   "camera says, or those usual for its picture size)")
       ->type_name("C.json")
       ->check(CLI::ExistingFile);
-  command.add_option("--pixel-format", c.pixel_format, "V4L2: the fourcc to use, one of Z16, Y16, Y10B, INZI")
-      ->check(CLI::IsMember({"Z16", "Y16", "Y10B", "INZI"}));
-  command.add_option("--depth-unit", c.depth_unit_mm, "V4L2: millimetres a depth step (default: by the pixel format)")
-      ->check(CLI::Range(0.001, 100.0));
-  command
-      .add_option("--speed", c.speed,
-                  "Pace of replay: 1 as recorded, 2 twice as fast; 0 as fast as it goes, dropping nothing")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+  for (const CameraDriver& driver : cameraDrivers().drivers()) {
+    for (const DriverOption& option : driver.options) addDriverOption(command, option, c.of_driver);
+  }
 }
 
 std::unique_ptr<DepthSource> openChosenSource(const SourceChoice& choice) {
-  SourceOptions options;
-  options.speed = choice.speed;
+  SourceOptions options = choice.of_driver;
   if (!choice.mode.empty()) options.mode = parseDepthMode(choice.mode);
   if (!choice.camera_file.empty()) options.camera = readRecordingHeader(choice.camera_file);
-  options.pixel_format = choice.pixel_format;
-  if (choice.depth_unit_mm > 0) options.depth_unit_m = choice.depth_unit_mm / 1000.0;
   return openSource(choice.source, options);
 }
 

@@ -15,10 +15,8 @@ struct SourceChoice {
   std::string source;
   std::string mode;
   std::filesystem::path camera_file;
-  std::string pixel_format;
-  double depth_unit_mm = 0;  // 0 = by the pixel format
-  double speed = 1;
-  double seconds = 0;  // 0 = until the source ends or Ctrl-C
+  SourceOptions of_driver;  // what the drivers' own options have set
+  double seconds = 0;       // 0 = until the source ends or Ctrl-C
 };
 
 void addSourceOptions(CLI::App& command, SourceChoice& choice);

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "libtracker/sensor/depth_source.h"
-#include "libtracker/sensor/list_cameras.h"
+#include "libtracker/sensor/driver_table.h"
 #include "libtracker/sensor/open_source.h"
 
 namespace depthmocap {
@@ -27,9 +27,7 @@ Camera::Camera(Camera&&) noexcept = default;
 Camera& Camera::operator=(Camera&&) noexcept = default;
 
 std::vector<FoundCamera> Camera::list() {
-  std::vector<FoundCamera> found = listOpenNiCameras();
-  for (FoundCamera& camera : listV4l2Cameras()) found.push_back(std::move(camera));
-  return found;
+  return cameraDrivers().list();
 }
 
 const CameraModel& Camera::model() const {

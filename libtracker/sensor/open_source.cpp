@@ -2,63 +2,17 @@
 
 #include <string_view>
 
-#include "depthmocap/error.h"
 #include "libtracker/core/parse_number.h"
-#include "libtracker/sensor/replay_source.h"
-#include "libtracker/sensor/returning_source.h"
-#include "libtracker/sensor/v4l2_source.h"
-#ifdef DEPTHMOCAP_OPENNI2
-#include "libtracker/openni/openni_runtime.h"
-#include "libtracker/sensor/openni_source.h"
-#endif
+#include "libtracker/sensor/driver_table.h"
 
 namespace depthmocap {
 
-namespace {
-
-struct SourceName {
-  std::string_view kind;
-  std::string_view rest;  // after the colon
-};
-
-SourceName split(std::string_view name) {
-  const std::size_t colon = name.find(':');
-  if (colon == std::string_view::npos) return {name, {}};
-  return {name.substr(0, colon), name.substr(colon + 1)};
-}
-
-#ifdef DEPTHMOCAP_OPENNI2
-// Holds the runtime while the camera is away: the runtime hears when it comes back.
-std::unique_ptr<DepthSource> openReturningOpenNi(const std::string& uri, const SourceOptions& options) {
-  return std::make_unique<ReturningSource>(
-      [uri, options, runtime = OpenNiRuntime::start()] { return openOpenNiCamera(uri, options); });
-}
-#else
-std::unique_ptr<DepthSource> openReturningOpenNi(const std::string&, const SourceOptions&) {
-  throw Error("this build has no OpenNI2", "openni2", "configure it with -DDEPTHMOCAP_OPENNI2=ON");
-}
-#endif
-
-}  // namespace
-
 std::string checkSourceName(const std::string& name) {
-  const auto [kind, rest] = split(name);
-  if (kind == "replay") return rest.empty() ? "replay needs a recording: replay:REC" : "";
-  if (kind == "openni2") return name == "openni2:" ? "openni2: needs a URI, or no colon" : "";
-  if (kind == "v4l2") return rest.empty() ? "v4l2 needs a device: v4l2:/dev/video0" : "";
-  return "'" + name + "' is no source; sources are openni2, openni2:URI, v4l2:/dev/videoN, replay:REC";
+  return cameraDrivers().check(name);
 }
 
 std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOptions& options) {
-  const std::string wrong = checkSourceName(name);
-  if (!wrong.empty()) throw Error(wrong, "--source");
-  const auto [kind, rest] = split(name);
-  if (kind == "openni2") return openReturningOpenNi(std::string(rest), options);
-  if (kind == "v4l2") {
-    return std::make_unique<ReturningSource>(
-        [path = std::string(rest), options] { return openV4l2Camera(path, options); });
-  }
-  return std::make_unique<ReplaySource>(openRecording(rest), options.speed);
+  return cameraDrivers().open(name, options);
 }
 
 std::optional<DepthMode> parseDepthMode(const std::string& text) {

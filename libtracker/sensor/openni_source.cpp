@@ -1,6 +1,7 @@
 #include "libtracker/sensor/openni_source.h"
 
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -10,7 +11,9 @@
 #include "libtracker/openni/openni_stream.h"
 #include "libtracker/recording/undistort.h"
 #include "libtracker/sensor/camera_calibration.h"
+#include "libtracker/sensor/camera_driver.h"
 #include "libtracker/sensor/frame_stamps.h"
+#include "libtracker/sensor/returning_source.h"
 
 namespace depthmocap {
 
@@ -103,10 +106,44 @@ SourceState OpenNiSource::next(SensorFrame& frame, std::chrono::milliseconds tim
   return SourceState::Frame;
 }
 
+std::string checkAddress(std::optional<std::string_view> address) {
+  return address == "" ? "openni2: needs a URI, or no colon" : "";
+}
+
+// Holds the runtime while the camera is away: the runtime hears when it comes back.
+std::unique_ptr<DepthSource> openReturning(const std::string& uri, const SourceOptions& options) {
+  return std::make_unique<ReturningSource>(
+      [uri, options, runtime = OpenNiRuntime::start()] { return openOpenNiCamera(uri, options); });
+}
+
+// None where the runtime cannot start: no driver, no camera.
+std::vector<FoundCamera> listCameras() {
+  std::vector<FoundCamera> found;
+  try {
+    for (const OpenNiDevice& device : openNiDevices(*OpenNiRuntime::start())) {
+      found.push_back({"openni2:" + device.uri, device.vendor + " " + device.name, ""});
+    }
+  } catch (const Error&) {
+    return {};
+  }
+  return found;
+}
+
 }  // namespace
 
 std::unique_ptr<DepthSource> openOpenNiCamera(const std::string& uri, const SourceOptions& options) {
   return std::make_unique<OpenNiSource>(openStream(uri, options), options);
+}
+
+CameraDriver openNiDriver() {
+  return {.prefix = "openni2",
+          .title = "OpenNI2",
+          .names = {"openni2", "openni2:URI"},
+          .remark = "",
+          .options = {},
+          .check = checkAddress,
+          .open = openReturning,
+          .list = listCameras};
 }
 
 }  // namespace depthmocap

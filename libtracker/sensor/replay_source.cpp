@@ -1,13 +1,39 @@
 #include "libtracker/sensor/replay_source.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/parse_number.h"
+#include "libtracker/sensor/camera_driver.h"
 
 namespace depthmocap {
+
+namespace {
+
+constexpr double kFastest = 1000;  // times a recording's own pace; no tracker keeps up with so much
+
+std::string checkAddress(std::optional<std::string_view> address) {
+  return address.value_or("").empty() ? "replay needs a recording: replay:REC" : "";
+}
+
+std::unique_ptr<DepthSource> open(const std::string& recording, const SourceOptions& options) {
+  return std::make_unique<ReplaySource>(openRecording(recording), options.speed);
+}
+
+std::string setSpeed(const std::string& text, SourceOptions& options) {
+  const std::optional<double> speed = parseDouble(text);
+  if (!speed || *speed < 0 || *speed > kFastest) return "'" + text + "' is no number from 0 to 1000";
+  options.speed = *speed;
+  return "";
+}
+
+}  // namespace
 
 ReplaySource::ReplaySource(std::unique_ptr<RecordingReader> reader, double speed)
     : reader_(std::move(reader)), speed_(speed) {
@@ -44,6 +70,19 @@ SourceState ReplaySource::next(SensorFrame& frame, std::chrono::milliseconds tim
   ahead_ = false;
   ++next_;
   return SourceState::Frame;
+}
+
+CameraDriver replayDriver() {
+  return {.prefix = "replay",
+          .title = "recordings",
+          .names = {"replay:REC"},
+          .remark = "a recording as if it were a camera",
+          .options = {{"--speed", "FACTOR",
+                       "Pace of replay: 1 as recorded, 2 twice as fast; 0 as fast as it goes, dropping nothing", "1",
+                       setSpeed}},
+          .check = checkAddress,
+          .open = open,
+          .list = nullptr};
 }
 
 }  // namespace depthmocap

@@ -6,8 +6,6 @@
 
 namespace depthmocap {
 
-// Cameras of the OpenNI2 runtime; none where the runtime cannot start.
-std::vector<FoundCamera> listOpenNiCameras();
 // Devices of /dev/video0 to 63 that offer a format that may hold depth, and may be opened.
 std::vector<FoundCamera> listV4l2Cameras(V4l2System& system = realV4l2System());
 

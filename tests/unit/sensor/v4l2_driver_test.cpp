@@ -1,4 +1,4 @@
-#include "libtracker/sensor/list_cameras.h"
+#include "libtracker/sensor/v4l2_driver.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace depthmocap {
 namespace {
 
-TEST(ListCameras, NamesDevicesThatMayGiveDepth) {
+TEST(V4l2Driver, NamesDevicesThatMayGiveDepth) {
   FakeV4l2 fake;
   fake.formats = {V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_Y16, V4L2_PIX_FMT_Z16};
   const auto found = listV4l2Cameras(fake);
@@ -18,7 +18,7 @@ TEST(ListCameras, NamesDevicesThatMayGiveDepth) {
   EXPECT_EQ(fake.open_devices, 0);
 }
 
-TEST(ListCameras, LeavesOutWebcamsAndDevicesInUse) {
+TEST(V4l2Driver, LeavesOutWebcamsAndDevicesInUse) {
   FakeV4l2 fake;
   fake.formats = {V4L2_PIX_FMT_YUYV};
   EXPECT_TRUE(listV4l2Cameras(fake).empty());
