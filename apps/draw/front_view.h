@@ -5,8 +5,8 @@
 
 namespace depthmocap {
 
-// How a lamp beside the camera would light the measured surface: [0, 1], 32-bit float, one value a depth pixel; 0 where
-// nothing is measured. Shows form where plain depth is nearly flat.
+// How a lamp beside the camera would light the measured surface: [0, 1], 32-bit float, one value per depth pixel; 0
+// where nothing is measured. Shows form where plain depth is nearly flat.
 cv::Mat shadeDepth(const DepthImage& depth, const CameraModel& camera);
 
 // The depth image with the actor's parts, markers and skeleton. A small actor is enlarged, at most twice; the view

@@ -8,7 +8,7 @@
 namespace depthmocap {
 
 // Draws preview pictures, kPreviewWidth x kPreviewHeight, 8-bit BGR. Remembers where the actor was, so that the view
-// from the side follows smoothly: one object a film, frames in order.
+// from the side follows smoothly: one object per film, frames in order.
 class PreviewPainter {
  public:
   explicit PreviewPainter(const CameraModel& camera);

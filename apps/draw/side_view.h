@@ -12,7 +12,7 @@ namespace depthmocap {
 class SideView {
  public:
   explicit SideView(const CameraModel& camera) : camera_(camera) {}
-  // Draws over the whole of `panel` (8-bit BGR). `shading` [0, 1] is the front view's, one value a depth pixel.
+  // Draws over the whole of `panel` (8-bit BGR). `shading` [0, 1] is the front view's, one value per depth pixel.
   void draw(const PreviewFrame& frame, const cv::Mat& shading, cv::Mat& panel);
 
  private:

@@ -12,7 +12,7 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
       .add_option("--actor", o.actor, "Calibrated body (see calibrate); otherwise the size is fitted while tracking")
       ->type_name("A.json");
   command.add_option("--joints", o.joints, "Joint centres in the camera frame, CSV")->type_name("J.csv");
-  command.add_option("--pose", o.pose, "The 36 degrees of freedom a frame, CSV")->type_name("Q.csv");
+  command.add_option("--pose", o.pose, "The 36 degrees of freedom per frame, CSV")->type_name("Q.csv");
   command.add_option("--bvh", o.bvh, "Motion for animation programs, BVH, y up")->type_name("M.bvh");
   command.add_option("--bvh-unit", o.bvh_unit, "Unit of length of the BVH: m or cm")
       ->check(CLI::IsMember({"m", "cm"}))
@@ -25,7 +25,7 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_option("--smooth", o.smooth, "Calms all outputs (One-Euro filter): 0 = off, 1 = most")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command.add_option("--labels", o.labels, "Folder for one body-part label image a frame, PNG")->type_name("DIR");
+  command.add_option("--labels", o.labels, "Folder for one body-part label image per frame, PNG")->type_name("DIR");
   command.add_option("--preview", o.preview, "Film of the tracking beside a view from the side, MP4")
       ->type_name("V.mp4");
   command.add_option("--contact-sheet", o.contact_sheet, "Up to 12 preview pictures of the run on one sheet, PNG")

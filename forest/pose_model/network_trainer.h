@@ -10,7 +10,7 @@ namespace depthmocap {
 // A network of these widths (inputs first, outputs last): weights normal with variance 1 / inputs, thresholds 0.
 DenseNetwork randomNetwork(const std::vector<int>& widths, Random& random);
 
-// Learns a network from batches by back-propagation and Adam (Kingma and Ba 2015). One column a sample.
+// Learns a network from batches by back-propagation and Adam (Kingma and Ba 2015). One column per sample.
 class NetworkTrainer {
  public:
   explicit NetworkTrainer(DenseNetwork network);

@@ -16,7 +16,7 @@ namespace depthmocap {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// A triangle surface in world coordinates. `part` is one a triangle, or empty where nothing is part of a person.
+// A triangle surface in world coordinates. `part` is one per triangle, or empty where nothing is part of a person.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;  // [m]
   std::vector<Triangle> triangles;        // counter-clockwise from outside
@@ -42,16 +42,16 @@ struct RenderedView {
 };
 
 // Casts one ray through each pixel centre at triangle meshes. Keeps its acceleration structures between calls, so use
-// one object a thread. Depth is computed from the plane of the triangle that was hit, in double precision: it does not
-// depend on the vector unit of the machine.
+// one object per thread. Depth is computed from the plane of the triangle that was hit, in double precision: it does
+// not depend on the vector unit of the machine.
 class DepthRenderer {
  public:
   DepthRenderer();
   ~DepthRenderer();
   DepthRenderer(DepthRenderer&&) noexcept;
 
-  // The moving surface, in world coordinates [m]; `part` one a triangle. The spans need not outlive the call. Cheapest
-  // if `triangles` is what it was at the call before (one actor, many poses).
+  // The moving surface, in world coordinates [m]; `part` one per triangle. The spans need not outlive the call.
+  // Cheapest if `triangles` is what it was at the call before (one actor, many poses).
   void setBody(std::span<const Eigen::Vector3f> vertices, std::span<const Triangle> triangles,
                std::span<const std::uint8_t> part);
   // What stands around it; an empty mesh removes it.

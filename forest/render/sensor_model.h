@@ -52,7 +52,7 @@ struct Kinect2Noise {
   double max_depth_m = 4.5;       // [m]
 };
 
-// Turns a noise-free picture into what a sensor delivers. Keeps its working memory: use one object a thread.
+// Turns a noise-free picture into what a sensor delivers. Keeps its working memory: use one object per thread.
 class SensorModel {
  public:
   explicit SensorModel(SensorKind kind) : kind_(kind) {}

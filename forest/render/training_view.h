@@ -39,7 +39,7 @@ struct TrainingViewConfig {
   double max_focal_scale = 1.05;
 };
 
-// Renders random views of poses. Use one object a thread; results depend on the arguments alone.
+// Renders random views of poses. Use one object per thread; results depend on the arguments alone.
 class TrainingViewRenderer {
  public:
   explicit TrainingViewRenderer(const TrainingViewConfig& config = {}) : config_(config) {}

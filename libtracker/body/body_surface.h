@@ -34,9 +34,9 @@ struct BodySurface {
   };
   Skeleton skeleton;
   std::vector<Eigen::Vector3f> vertices;                // [m] in the zero pose with the root at the origin
-  std::vector<Skin> skin;                               // one a vertex
+  std::vector<Skin> skin;                               // one per vertex
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise from outside
-  std::vector<std::uint8_t> part;                       // Part, one a triangle
+  std::vector<std::uint8_t> part;                       // Part, one per triangle
 };
 
 // The weight of one litre of a living body with half-filled lungs [kg].
@@ -46,7 +46,7 @@ inline constexpr double kBodyDensityKgPerLitre = 1.0 / 0.985;
 double enclosedVolume(const std::vector<Eigen::Vector3f>& vertices,
                       const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-// Unit normals, one a vertex, area-weighted over its triangles; zero where a vertex has none.
+// Unit normals, one per vertex, area-weighted over its triangles; zero where a vertex has none.
 std::vector<Eigen::Vector3f> vertexNormals(const std::vector<Eigen::Vector3f>& vertices,
                                            const std::vector<std::array<std::uint32_t, 3>>& triangles);
 

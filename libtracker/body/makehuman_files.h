@@ -35,7 +35,7 @@ using MakeHumanJoints = std::map<std::string, std::vector<std::uint32_t>>;
 MakeHumanJoints readMakeHumanRig(const std::filesystem::path& file, const MakeHumanMesh& mesh);
 
 // weights.cmu_mb.json with the rig's 31 bones merged to ours: hips and lower back to the root, the upper spine to the
-// upper back, hands and fingers to the radius, toes to the foot. One row a body vertex, sum 1.
+// upper back, hands and fingers to the radius, toes to the foot. One row per body vertex, sum 1.
 using BoneWeights = std::array<float, kBoneCount>;
 std::vector<BoneWeights> readMakeHumanWeights(const std::filesystem::path& file, std::size_t body_vertices);
 

@@ -26,10 +26,10 @@ struct MarkerConfig {
   void validate() const;  // throws Error naming field, value and rule
 };
 
-// Finds at most one labelled 3D point a part: the strongest mode of the part's density over the seen surface (Comaniciu
-// & Meer 2002; the density of Shotton 2011, section 3.3, with pixel weight = probability * surface area of the pixel).
-// Keeps working memory: reuse one object in a loop, nothing is allocated once the frame size has been seen. Not
-// thread-safe.
+// Finds at most one labelled 3D point per part: the strongest mode of the part's density over the seen surface
+// (Comaniciu & Meer 2002; the density of Shotton 2011, section 3.3, with pixel weight = probability * surface area of
+// the pixel). Keeps working memory: reuse one object in a loop, nothing is allocated once the frame size has been seen.
+// Not thread-safe.
 class MarkerFinder {
  public:
   // Throws Error for an invalid config.

@@ -19,7 +19,7 @@ struct AsfSkeleton {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();         // the root's preset position [m]
   };
   std::vector<MotionBone> bones;
-  std::vector<Motion> motions;  // one a bone
+  std::vector<Motion> motions;  // one per bone
   double metres_per_unit = 0.0254 / 0.45;
   bool degrees = true;
 };

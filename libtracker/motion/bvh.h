@@ -26,7 +26,7 @@ class BvhRows {
   BvhRows(const BvhRows&) = delete;
   BvhRows& operator=(const BvhRows&) = delete;
 
-  // `positions` of the bones in their parents, one a bone; only the root's is read unless bones move.
+  // `positions` of the bones in their parents, one per bone; only the root's is read unless bones move.
   void write(const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Quaterniond>& rotations);
   void finish();
 
@@ -45,7 +45,7 @@ class BvhRows {
   std::vector<std::size_t> order_;  // bones as the hierarchy lists them
   std::streamoff frames_at_ = 0;    // where the number of frames stands
   std::int64_t frames_ = 0;
-  std::vector<Eigen::Vector3d> angles_;  // of the row before, z y x [rad], one a bone
+  std::vector<Eigen::Vector3d> angles_;  // of the row before, z y x [rad], one per bone
   bool finished_ = false;
 };
 

@@ -8,7 +8,7 @@
 namespace depthmocap {
 
 // Writes poses of the 36-DoF body as BVH with the joint names of MotionBuilder and Mixamo (Hips, Spine, LeftArm, ...),
-// one row a frame as they come (see BvhRows). Offsets are the T-pose, y up, facing +z; scale 1 writes metres, 100
+// one row per frame as they come (see BvhRows). Offsets are the T-pose, y up, facing +z; scale 1 writes metres, 100
 // centimetres. Hands and toes do not move by themselves.
 class BvhWriter {
  public:

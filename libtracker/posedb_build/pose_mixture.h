@@ -10,7 +10,7 @@ namespace depthmocap {
 
 // A learned model of natural poses: a mixture of local linear Gaussians over the DoFs that do not depend on where the
 // actor stands (mixtures of factor analysers in spirit: Ghahramani and Hinton 1996; fitted by k-means and a PCA per
-// cluster, forest/pose_model). It keeps statistics of many poses a component, no pose itself. Samples of it fill the
+// cluster, forest/pose_model). It keeps statistics of many poses per component, no pose itself. Samples of it fill the
 // pose database that ships.
 struct PoseMixture {
   static constexpr int kDims = 10;  // principal directions a component

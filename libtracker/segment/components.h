@@ -38,7 +38,7 @@ class ComponentFinder {
  public:
   // Neighbouring cells (also across one missing cell) are connected when their points are at most gap_m apart; the gap
   // grows with the depth beyond 3 m as the sensors' depth steps do. Cells with keep[i] == 0 take no part. `up`: unit,
-  // camera frame. `known` (one a cell, or empty): cells of different identities are never connected.
+  // camera frame. `known` (one per cell, or empty): cells of different identities are never connected.
   void find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m, const Eigen::Vector3f& up,
             std::span<const Identity> known = {});
 

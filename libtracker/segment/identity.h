@@ -17,7 +17,7 @@ class IdentityMemory {
   // For each cell of a frame the identity of the nearest surface of the frame before; Unknown where nothing was near.
   // Reuses the memory of `known`.
   void recall(const CoarseCloud& cloud, std::vector<Identity>& known) const;
-  // The present frame, for the next one: `identities` one a component, `labels` the component of each cell.
+  // The present frame, for the next one: `identities` one per component, `labels` the component of each cell.
   void remember(const CoarseCloud& cloud, const std::vector<std::int32_t>& labels,
                 const std::vector<Identity>& identities);
   void forget() { identities_.clear(); }
@@ -26,7 +26,7 @@ class IdentityMemory {
   [[nodiscard]] Identity nearest(const CoarseCloud& cloud, int x, int y) const;
 
   std::vector<Eigen::Vector3f> points_;  // of the frame before, as CoarseCloud has them
-  std::vector<Identity> identities_;     // one a cell; empty = nothing is known
+  std::vector<Identity> identities_;     // one per cell; empty = nothing is known
 };
 
 }  // namespace depthmocap

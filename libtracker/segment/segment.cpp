@@ -178,9 +178,9 @@ double Segmenter::Impl::visibleShare() {
   return hidden && area > 0 ? std::min(1.0, static_cast<double>(area / usual_area_m2)) : 1.0;
 }
 
-// Whoever could have been chosen and was not is somebody else from now on, as are things that people lean on; but not
-// while the actor is hidden, who may be just that one. A piece that was joined by its place alone may be the first of
-// somebody who comes: it stays unknown.
+// A component that could have been chosen and was not is another person from now on, as are things that people lean on;
+// but not while the actor is hidden, who may be just that one. A piece that was joined by its place alone may be the
+// first of somebody who comes: it stays unknown.
 void Segmenter::Impl::rememberPeople(const Choice& choice) {
   const std::vector<Component>& components = finder.components();
   identities.assign(components.size(), Identity::Unknown);

@@ -8,8 +8,8 @@ namespace depthmocap {
 // Times of one kind [ms], for their percentiles.
 class Durations {
  public:
-  // All: exact, and the memory grows by 8 bytes a value: for work that ends. Binned: percentiles within 0.5 %, and the
-  // memory stays what it is: for runs that may take days.
+  // All: exact, and the memory grows by 8 bytes per value: for work that ends. Binned: percentiles within 0.5 %, and
+  // the memory stays what it is: for runs that may take days.
   enum class Keep { All, Binned };
   explicit Durations(Keep keep) : keep_(keep) {}
 

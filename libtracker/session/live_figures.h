@@ -16,7 +16,7 @@ struct LiveFigures {
   std::int64_t returns = 0;       // times the camera was lost and found again
   std::int64_t recorded = 0;      // --record: frames written
   std::int64_t not_recorded = 0;  // --record: frames that the disk was too slow for
-  // From the sensor's time stamp until all outputs had the frame; one value a frame.
+  // From the sensor's time stamp until all outputs had the frame; one value per frame.
   Durations latency{Durations::Keep::Binned};
 };
 

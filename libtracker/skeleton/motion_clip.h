@@ -11,7 +11,7 @@ struct MotionClip {
   std::string name;         // "16_32", "walk"
   double fps = 30.0;        // [1/s]
   BoneLengths lengths;      // the performer's
-  std::vector<Pose> poses;  // one a frame
+  std::vector<Pose> poses;  // one per frame
 };
 
 }  // namespace depthmocap

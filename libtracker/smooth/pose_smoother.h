@@ -19,7 +19,7 @@ class PoseSmoother {
   [[nodiscard]] bool on() const { return !filters_.empty(); }
 
  private:
-  std::vector<OneEuro> filters_;  // one a DoF; empty = off
+  std::vector<OneEuro> filters_;  // one per DoF; empty = off
   bool started_ = false;
   double heading_ = 0;  // [rad] of the pose before, without jumps at half turns
 };

@@ -21,7 +21,7 @@ using FootContacts = std::array<FootContact, kFootPointCount>;
 // Beyond the paper: what stands on the floor stays where it is. lambda * sum over contacts of weight * rho(|f(q) - p|),
 // rho the Lorentzian: a contact that is wrong, or that the image contradicts, is given up.
 //
-// Rows: three a contact, then one a contact for its curvature (see RobustPull).
+// Rows: three per contact, then one per contact for its curvature (see RobustPull).
 class ContactTerm {
  public:
   static constexpr int kResidualRows = 3 * kFootPointCount;

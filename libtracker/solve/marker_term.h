@@ -9,7 +9,7 @@ namespace depthmocap {
 // lambda2 E_marker of equation (5): sum over seen markers of lambda * confidence * rho(|f(q) - a~|), rho the
 // Lorentzian.
 //
-// Rows: three a marker, then one a marker for its curvature (see RobustPull).
+// Rows: three per marker, then one per marker for its curvature (see RobustPull).
 class MarkerTerm {
  public:
   static constexpr int kResidualRows = 3 * kPartCount;

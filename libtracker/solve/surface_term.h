@@ -12,7 +12,7 @@ namespace depthmocap {
 //
 // A point that is rigid with a bone depends linearly on the 12 numbers of the bone's frame, so the sum over all matches
 // of a bone is a quadratic form of these and 1. Its root, 13 rows a bone, gives the same energy and the same normal
-// equations as one row a match would: the solve takes the same time for any number of matches.
+// equations as one row per match would: the solve takes the same time for any number of matches.
 class SurfaceTerm {
  public:
   static constexpr int kBoneRows = 13;

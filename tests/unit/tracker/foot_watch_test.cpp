@@ -55,7 +55,7 @@ TEST(FootWatch, FeetThatRestOnTheFloorStandWhereTheyAre) {
     EXPECT_LT(contact.weight, 1);
     EXPECT_LT((contact.p_world - fk.position(contact.point)).norm(), 1e-9);
   }
-  for (const FootContact& contact : walker.stand(15)) EXPECT_EQ(contact.weight, 1);  // surer by and by
+  for (const FootContact& contact : walker.stand(15)) EXPECT_EQ(contact.weight, 1);  // with growing weight
 }
 
 TEST(FootWatch, NoiseDoesNotMoveAPlaceMuch) {

@@ -8,7 +8,7 @@
 
 namespace depthmocap::test {
 
-// Figures of fifteen discs, one a part, in the places of a person's parts seen from the front, at random distances.
+// Figures of fifteen discs, one per part, in the places of a person's parts seen from the front, at random distances.
 class DiscFigures : public TrainingImageSource {
  public:
   DiscFigures(std::size_t count, std::uint64_t seed) : count_(count), seed_(seed) {}
