@@ -196,7 +196,7 @@ TEST(MarkerConfig, ErrorNamesFieldAndRule) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("bandwidth_m"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("(0, 1)"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("above 0 and below 1"), std::string::npos);
   }
 }
 
