@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "depthmocap/error.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/session/live_session.h"
 #include "libtracker/session/replay_session.h"
 #include "libtracker/tracker/tracker_config.h"
@@ -13,12 +13,13 @@ namespace {
 constexpr double kMostLookAhead_s = 1.0;
 
 void validate(const SessionOptions& o) {
-  const char* where = "SessionOptions";
-  if (o.look_ahead_s && !(*o.look_ahead_s >= 0 && *o.look_ahead_s <= kMostLookAhead_s)) {
-    throw Error("look_ahead_s must lie between 0 and 1", where);
-  }
-  if (!(o.smooth >= 0 && o.smooth <= 1)) throw Error("smooth must lie between 0 and 1", where);
-  if (!(o.seconds >= 0)) throw Error("seconds must not be negative", where);
+  const auto check = [](bool holds, const char* field, double value, const char* rule) {
+    checkConfig(holds, "SessionOptions", field, value, rule);
+  };
+  const double look_ahead_s = o.look_ahead_s.value_or(kLookAhead_s);
+  check(look_ahead_s >= 0 && look_ahead_s <= kMostLookAhead_s, "look_ahead_s", look_ahead_s, "from 0 to 1");
+  check(o.smooth >= 0 && o.smooth <= 1, "smooth", o.smooth, "from 0 to 1");
+  check(o.seconds >= 0, "seconds", o.seconds, "at least 0");
 }
 
 Tracker makeTracker(const CameraModel& camera, const SessionOptions& options) {
