@@ -46,7 +46,8 @@ void addServeCommand(CLI::App& app) {
                       "Token that requests must show (default: a random one where needed)");
   addIkOptions(*command, options->ik);
   command->footer(
-      "GET /health answers 200; POST /ik solves for a pose (docs/reference/stream.md). Example:\n  depthmocap serve --port 8010");
+      "GET /health answers 200; POST /ik solves for a pose (docs/reference/stream.md). Example:\n  depthmocap serve "
+      "--port 8010");
   command->callback([options] { serve(*options); });
 }
 

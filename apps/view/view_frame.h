@@ -35,8 +35,8 @@ struct ViewPicture {
   std::vector<std::uint8_t> labels;
 };
 
-// Makes the binary message of a frame (docs/reference/stream.md, "frame"): JSON, then the depth picture in millimetres and the
-// part labels, at half the size or less. Keeps the height of the floor from frame to frame.
+// Makes the binary message of a frame (docs/reference/stream.md, "frame"): JSON, then the depth picture in millimetres
+// and the part labels, at half the size or less. Keeps the height of the floor from frame to frame.
 class ViewFrameEncoder {
  public:
   explicit ViewFrameEncoder(const CameraModel& camera);

@@ -19,8 +19,8 @@ struct PoseCoder {
 };
 
 // g, (3.3) of MNN-IK: the difference of a pose from its reconstruction by an autoencoder, theta - theta^, in units of
-// each DoF's deviation. A row a DoF in place of the paper's one row of its square: as accurate (docs/lab/ik.md), in less
-// time.
+// each DoF's deviation. A row a DoF in place of the paper's one row of its square: as accurate (docs/lab/ik.md), in
+// less time.
 class AutoencoderPrior final : public PosePrior {
  public:
   AutoencoderPrior(PoseScale scale, PoseCoder coder) : scale_(std::move(scale)), coder_(std::move(coder)) {}

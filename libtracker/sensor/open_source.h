@@ -17,8 +17,8 @@ struct SourceOptions {
   std::optional<double> depth_unit_m;   // [m] a depth step; none: by the pixel format
 };
 
-// Names are those of the drivers (driver_table.h). Error for another name, a camera that is not there or cannot be used,
-// a recording that cannot be read. Cameras come back after they were unplugged.
+// Names are those of the drivers (driver_table.h). Error for another name, a camera that is not there or cannot be
+// used, a recording that cannot be read. Cameras come back after they were unplugged.
 std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOptions& options);
 
 // "" where the name can be a source's, else what is wrong with it.

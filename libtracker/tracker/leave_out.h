@@ -6,8 +6,8 @@
 
 namespace depthmocap {
 
-// The parts of the method that can be left out, to measure what each is worth (docs/lab/accuracy.md): the terms of equation
-// (5) and what we add to the paper.
+// The parts of the method that can be left out, to measure what each is worth (docs/lab/accuracy.md): the terms of
+// equation (5) and what we add to the paper.
 std::vector<std::string> optionalParts();
 
 // `config` without one of them; Error names the parts that there are.

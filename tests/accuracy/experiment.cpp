@@ -1,6 +1,6 @@
 // Tracks a recording as `depthmocap replay` does, for measurements that the program itself has no use for
-// (scripts/experiments, docs/lab/accuracy.md): with what only a rendered recording knows (the true body, the part of every
-// pixel, exact markers), with another search or local model, with disturbed frames.
+// (scripts/experiments, docs/lab/accuracy.md): with what only a rendered recording knows (the true body, the part of
+// every pixel, exact markers), with another search or local model, with disturbed frames.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>

@@ -30,7 +30,7 @@ class KnownLabels : public PartClassifier {
 };
 
 inline void KnownLabels::classify(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
-                           const ClassifyConfig& config, Memory& memory, ClassifiedPixels& result) const {
+                                  const ClassifyConfig& config, Memory& memory, ClassifiedPixels& result) const {
   forest_->classify(depth, mask, camera, config, memory, result);
   if (labels_ == nullptr) return;
   ClassifyMemory& trees = static_cast<ForestClassifier::Memory&>(memory).votes;
