@@ -20,24 +20,16 @@ namespace depthmocap {
 namespace {
 
 constexpr int kDevices = 64;
-constexpr std::uint32_t kMostFormats = 64;
 // [mm] per depth step that a user may ask for: finer than any sensor, coarser than any use.
 constexpr double kFinestUnit_mm = 0.001;
 constexpr double kCoarsestUnit_mm = 100;
 
 // Names of the formats that may hold depth; "" if there are none.
 std::string depthFormats(V4l2System& system, int device) {
-  std::string names;
-  for (std::uint32_t i = 0; i < kMostFormats; ++i) {
-    v4l2_fmtdesc description{};
-    description.index = i;
-    description.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    if (system.control(device, VIDIOC_ENUM_FMT, &description) < 0) break;
-    const auto known = depthFourccs();
-    if (std::find(known.begin(), known.end(), description.pixelformat) == known.end()) continue;
-    names += (names.empty() ? "" : ", ") + fourccName(description.pixelformat);
-  }
-  return names;
+  std::vector<std::uint32_t> formats = offeredFourccs(system, device);
+  const auto known = depthFourccs();
+  std::erase_if(formats, [&](std::uint32_t f) { return std::find(known.begin(), known.end(), f) == known.end(); });
+  return fourccNames(formats);
 }
 
 std::string checkAddress(std::optional<std::string_view> address) {
@@ -48,19 +40,13 @@ std::unique_ptr<DepthSource> open(const std::string& path, const SourceOptions& 
   return std::make_unique<ReturningSource>([path, options] { return openV4l2Camera(path, options); });
 }
 
-std::string knownFormats() {
-  std::string names;
-  for (const std::uint32_t fourcc : depthFourccs()) names += (names.empty() ? "" : ", ") + fourccName(fourcc);
-  return names;
-}
-
 std::string setPixelFormat(const std::string& text, SourceOptions& options) {
   for (const std::uint32_t fourcc : depthFourccs()) {
     if (fourccName(fourcc) != text) continue;
     options.pixel_format = text;
     return "";
   }
-  return "'" + text + "' is none of " + knownFormats();
+  return "'" + text + "' is none of " + fourccNames(depthFourccs());
 }
 
 std::string setDepthUnit(const std::string& text, SourceOptions& options) {
@@ -92,17 +78,17 @@ std::vector<FoundCamera> listV4l2Cameras(V4l2System& system) {
 }
 
 CameraDriver v4l2Driver() {
-  return {
-      .prefix = "v4l2",
-      .title = "V4L2",
-      .names = {"v4l2:/dev/videoN"},
-      .remark = "",
-      .options = {{"--pixel-format", "FOURCC", "V4L2: the fourcc to use, one of " + knownFormats(), "", setPixelFormat},
-                  {"--depth-unit", "MM", "V4L2: millimetres a depth step (default: by the pixel format)", "",
-                   setDepthUnit}},
-      .check = checkAddress,
-      .open = open,
-      .list = [] { return listV4l2Cameras(); }};
+  return {.prefix = "v4l2",
+          .title = "V4L2",
+          .names = {"v4l2:/dev/videoN"},
+          .remark = "",
+          .options = {{"--pixel-format", "FOURCC", "V4L2: the fourcc to use, one of " + fourccNames(depthFourccs()), "",
+                       setPixelFormat},
+                      {"--depth-unit", "MM", "V4L2: millimetres a depth step (default: by the pixel format)", "",
+                       setDepthUnit}},
+          .check = checkAddress,
+          .open = open,
+          .list = [] { return listV4l2Cameras(); }};
 }
 
 }  // namespace depthmocap

@@ -80,6 +80,12 @@ std::string fourccName(std::uint32_t fourcc) {
   return name;
 }
 
+std::string fourccNames(std::span<const std::uint32_t> fourccs) {
+  std::string names;
+  for (const std::uint32_t fourcc : fourccs) names += (names.empty() ? "" : ", ") + fourccName(fourcc);
+  return names;
+}
+
 std::uint32_t fourccNamed(const std::string& name) {
   std::array<std::uint32_t, 4> c = {' ', ' ', ' ', ' '};
   for (std::size_t i = 0; i < std::min<std::size_t>(name.size(), 4); ++i) c[i] = static_cast<unsigned char>(name[i]);

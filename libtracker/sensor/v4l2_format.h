@@ -20,7 +20,8 @@ struct V4l2Format {
 // The pixel formats that hold depth, the best first: Z16 and INZI (infrared, then depth) say so, Y10B is the Kinect of
 // 2010 under the kernel's gspca_kinect, Y16 may be a picture, but some cameras and loopback pipes send depth as such.
 std::span<const std::uint32_t> depthFourccs();
-std::string fourccName(std::uint32_t fourcc);  // "Z16"
+std::string fourccName(std::uint32_t fourcc);                     // "Z16"
+std::string fourccNames(std::span<const std::uint32_t> fourccs);  // "Z16, Y16"
 std::uint32_t fourccNamed(const std::string& name);
 
 // Metres a step of what unpack() gives, where nobody says otherwise: Z16 and Y16 a millimetre, INZI an eighth of one

@@ -19,7 +19,6 @@ namespace {
 constexpr std::uint32_t kBuffers = 4;
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 constexpr DepthMode kUsualMode{640, 480, 30};
-constexpr std::uint32_t kMostListed = 64;  // formats or sizes; no driver has so many
 
 const char* adviceFor(int error) {
   switch (error) {
@@ -96,16 +95,8 @@ void V4l2Stream::checkCamera() {
 }
 
 std::uint32_t V4l2Stream::chooseFourcc(const std::string& wanted) {
-  std::vector<std::uint32_t> offered;
-  std::string names;
-  for (std::uint32_t i = 0; i < kMostListed; ++i) {
-    v4l2_fmtdesc description{};
-    description.index = i;
-    description.type = kCapture;
-    if (system_.control(device_, VIDIOC_ENUM_FMT, &description) < 0) break;
-    offered.push_back(description.pixelformat);
-    names += (names.empty() ? "" : ", ") + fourccName(description.pixelformat);
-  }
+  const std::vector<std::uint32_t> offered = offeredFourccs(system_, device_);
+  const std::string names = fourccNames(offered);
   const auto has = [&offered](std::uint32_t fourcc) {
     return std::find(offered.begin(), offered.end(), fourcc) != offered.end();
   };

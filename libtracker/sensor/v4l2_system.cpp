@@ -3,6 +3,7 @@
 #include <cerrno>
 
 #include <fcntl.h>
+#include <linux/videodev2.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
@@ -47,6 +48,18 @@ class RealSystem : public V4l2System {
 V4l2System& realV4l2System() {
   static RealSystem system;
   return system;
+}
+
+std::vector<std::uint32_t> offeredFourccs(V4l2System& system, int device) {
+  std::vector<std::uint32_t> offered;
+  for (std::uint32_t i = 0; i < kMostListed; ++i) {
+    v4l2_fmtdesc description{};
+    description.index = i;
+    description.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    if (system.control(device, VIDIOC_ENUM_FMT, &description) < 0) break;
+    offered.push_back(description.pixelformat);
+  }
+  return offered;
 }
 
 }  // namespace depthmocap

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace depthmocap {
 
@@ -18,5 +20,11 @@ class V4l2System {
 
 // The one of this computer.
 V4l2System& realV4l2System();
+
+// The most formats or sizes that a device is asked for; no driver has so many.
+inline constexpr std::uint32_t kMostListed = 64;
+
+// The fourccs of the pixel formats that an open device lists, in its order.
+std::vector<std::uint32_t> offeredFourccs(V4l2System& system, int device);
 
 }  // namespace depthmocap
