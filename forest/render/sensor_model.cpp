@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "libtracker/core/check.h"
@@ -80,10 +81,48 @@ struct Window {
   }
 };
 
-// The pixel that is measured at (x, y) once silhouettes wobble by `lateral` [px].
-std::pair<int, int> wobbled(int x, int y, double lateral, float shift_x, float shift_y, const DepthImage& image) {
-  return {std::clamp(x + static_cast<int>(std::lround(lateral * shift_x)), 0, image.width - 1),
-          std::clamp(y + static_cast<int>(std::lround(lateral * shift_y)), 0, image.height - 1)};
+// How silhouettes wobble: smooth fields over a window, times `lateral_px`.
+struct Wobble {
+  double lateral_px;
+  const SmoothNoise& shift_x;
+  const SmoothNoise& shift_y;
+
+  // The pixel of `image` that is measured at (x, y), which is (u, v) of the window.
+  [[nodiscard]] std::pair<int, int> source(int x, int y, int u, int v, const DepthImage& image) const {
+    return {std::clamp(x + static_cast<int>(std::lround(lateral_px * shift_x.at(u, v))), 0, image.width - 1),
+            std::clamp(y + static_cast<int>(std::lround(lateral_px * shift_y.at(u, v))), 0, image.height - 1)};
+  }
+};
+
+// What a pixel measures.
+struct Measured {
+  double depth_m;
+  std::uint8_t part;
+};
+
+// The depths that a sensor hands out [m].
+struct DepthRange {
+  double min_m;
+  double max_m;
+};
+
+// Measures the pixels of the window, row by row. `measure(x, y, u, v)` says what the pixel (x, y) of the view gives, at
+// (u, v) of the window, if anything; it is asked for pixels with a surface only.
+template <typename Measure>
+void measurePixels(const RenderedView& view, const Window& window, const Wobble& wobble, const DepthRange& range,
+                   const Measure& measure, DepthImage& depth, PartImage& parts) {
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      const int u = x - window.x0;
+      const int v = y - window.y0;
+      const auto [sx, sy] = wobble.source(x, y, u, v, view.depth);
+      if (view.depth.at(sx, sy) <= 0.0F) continue;
+      const std::optional<Measured> measured = measure(sx, sy, u, v);
+      if (!measured || measured->depth_m < range.min_m || measured->depth_m > range.max_m) continue;
+      depth.at(x, y) = toWholeMillimetres(measured->depth_m);
+      parts.at(x, y) = measured->part;
+    }
+  }
 }
 
 // A standard normal field is above this value on a share of the image (a logistic fit of the normal quantile, good to
@@ -192,31 +231,25 @@ void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& r
   const float edge_threshold = thresholdForShare(n.edge_dropout);
   const float hair_threshold = thresholdForShare(n.hair_dropout);
 
-  for (int y = window.y0; y < window.y1; ++y) {
-    for (int x = window.x0; x < window.x1; ++x) {
-      const int u = x - window.x0;
-      const int v = y - window.y0;
-      const auto [sx, sy] = wobbled(x, y, lateral, shift_x_.at(u, v), shift_y_.at(u, v), view.depth);
-      const double clean = view.depth.at(sx, sy);
-      if (clean <= 0.0 || view.lit.at(sx, sy) == 0) continue;
-      const float cosine = view.incidence.at(sx, sy);
-      const float drop = dropout_.at(u, v);
-      const bool head = view.parts.at(sx, sy) == static_cast<std::uint8_t>(Part::Head);
-      if (cosine < n.grazing_cos * (1.0 + 0.5 * drop)) continue;
-      if (head && cosine < n.hair_cos && drop > hair_threshold) continue;
-      if (drop > edge_threshold && lookAround(view.depth, sx, sy).edge) continue;
+  const auto measure = [&](int x, int y, int u, int v) -> std::optional<Measured> {
+    if (view.lit.at(x, y) == 0) return std::nullopt;
+    const float cosine = view.incidence.at(x, y);
+    const float drop = dropout_.at(u, v);
+    const std::uint8_t part = view.parts.at(x, y);
+    const bool head = part == static_cast<std::uint8_t>(Part::Head);
+    if (cosine < n.grazing_cos * (1.0 + 0.5 * drop)) return std::nullopt;
+    if (head && cosine < n.hair_cos && drop > hair_threshold) return std::nullopt;
+    if (drop > edge_threshold && lookAround(view.depth, x, y).edge) return std::nullopt;
 
-      const double slant = 1.0 / std::max(0.3, static_cast<double>(cosine));
-      const double noise = slant * (n.window_noise_px * error_.at(u, v) + n.pixel_noise_px * random.normal());
-      const double disparity =
-          std::round((windowDisparity(view.depth, sx, sy, stride, focal_baseline) + noise) / n.disparity_step_px) *
-          n.disparity_step_px;
-      const double measured = disparity > 0.0 ? focal_baseline / disparity : 0.0;
-      if (measured < n.min_depth_m || measured > n.max_depth_m) continue;
-      depth.at(x, y) = toWholeMillimetres(measured);
-      parts.at(x, y) = view.parts.at(sx, sy);
-    }
-  }
+    const double slant = 1.0 / std::max(0.3, static_cast<double>(cosine));
+    const double noise = slant * (n.window_noise_px * error_.at(u, v) + n.pixel_noise_px * random.normal());
+    const double disparity =
+        std::round((windowDisparity(view.depth, x, y, stride, focal_baseline) + noise) / n.disparity_step_px) *
+        n.disparity_step_px;
+    if (disparity <= 0.0) return std::nullopt;
+    return Measured{focal_baseline / disparity, part};
+  };
+  measurePixels(view, window, {lateral, shift_x_, shift_y_}, {n.min_depth_m, n.max_depth_m}, measure, depth, parts);
   punchHoles(view, n.holes / (640.0 * 480.0 * scale * scale), scale, random, depth);
   unfiltered_ = depth;
   removeSpeckles(view, unfiltered_, depth);
@@ -233,33 +266,25 @@ void SensorModel::applyKinect2(const RenderedView& view, double scale, Random& r
   for (SmoothNoise* field : {&shift_x_, &shift_y_}) window.draw(*field, 2.0, random);
   window.draw(error_, n.multipath_px * scale, random);
 
-  for (int y = window.y0; y < window.y1; ++y) {
-    for (int x = window.x0; x < window.x1; ++x) {
-      const int u = x - window.x0;
-      const int v = y - window.y0;
-      const auto [sx, sy] = wobbled(x, y, lateral, shift_x_.at(u, v), shift_y_.at(u, v), view.depth);
-      const double clean = view.depth.at(sx, sy);
-      if (clean <= 0.0) continue;
-      const double cosine = view.incidence.at(sx, sy);
-      if (cosine < n.grazing_cos) continue;
-      const double slant = 1.0 / std::max(0.25, cosine);
-      const double spread = (n.noise_m + n.noise_per_m2 * clean * clean) * (0.5 + 0.5 * slant);
-      double measured = clean + spread * random.normal() + n.multipath_m * error_.at(u, v);
-      std::uint8_t part = view.parts.at(sx, sy);
-      const Neighbourhood around = lookAround(view.depth, sx, sy);
-      if (around.before && random.uniform() < n.flying_share) {
-        const double mix = random.uniform();
-        const double gap = around.behind_m > 0.0 ? around.behind_m - clean : n.flying_reach_m;
-        // A pixel that is mostly background, with nothing there, is not measured at all.
-        if (around.behind_m <= 0.0 && mix > 0.6) continue;
-        measured += mix * mix * gap;
-        if (mix * mix * gap > 0.1) part = 0;
-      }
-      if (measured < n.min_depth_m || measured > n.max_depth_m) continue;
-      depth.at(x, y) = toWholeMillimetres(measured);
-      parts.at(x, y) = part;
+  const auto measure = [&](int x, int y, int u, int v) -> std::optional<Measured> {
+    const double clean = view.depth.at(x, y);
+    const double cosine = view.incidence.at(x, y);
+    if (cosine < n.grazing_cos) return std::nullopt;
+    const double slant = 1.0 / std::max(0.25, cosine);
+    const double spread = (n.noise_m + n.noise_per_m2 * clean * clean) * (0.5 + 0.5 * slant);
+    Measured measured{clean + spread * random.normal() + n.multipath_m * error_.at(u, v), view.parts.at(x, y)};
+    const Neighbourhood around = lookAround(view.depth, x, y);
+    if (around.before && random.uniform() < n.flying_share) {
+      const double mix = random.uniform();
+      const double gap = around.behind_m > 0.0 ? around.behind_m - clean : n.flying_reach_m;
+      // A pixel that is mostly background, with nothing there, is not measured at all.
+      if (around.behind_m <= 0.0 && mix > 0.6) return std::nullopt;
+      measured.depth_m += mix * mix * gap;
+      if (mix * mix * gap > 0.1) measured.part = 0;
     }
-  }
+    return measured;
+  };
+  measurePixels(view, window, {lateral, shift_x_, shift_y_}, {n.min_depth_m, n.max_depth_m}, measure, depth, parts);
 }
 
 }  // namespace depthmocap
