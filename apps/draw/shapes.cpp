@@ -1,36 +1,13 @@
 #include "apps/draw/shapes.h"
 
-#include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "libtracker/core/stick_figure.h"
 #include "libtracker/recording/part_colors.h"
 
 namespace depthmocap {
 
 namespace {
-
-struct BoneLine {
-  Joint from;
-  Joint to;
-};
-
-constexpr std::array<BoneLine, 17> kBoneLines{{{Joint::Pelvis, Joint::Spine},
-                                               {Joint::Spine, Joint::Neck},
-                                               {Joint::Neck, Joint::Head},
-                                               {Joint::Neck, Joint::LeftShoulder},
-                                               {Joint::LeftShoulder, Joint::LeftElbow},
-                                               {Joint::LeftElbow, Joint::LeftWrist},
-                                               {Joint::Neck, Joint::RightShoulder},
-                                               {Joint::RightShoulder, Joint::RightElbow},
-                                               {Joint::RightElbow, Joint::RightWrist},
-                                               {Joint::Pelvis, Joint::LeftHip},
-                                               {Joint::LeftHip, Joint::LeftKnee},
-                                               {Joint::LeftKnee, Joint::LeftAnkle},
-                                               {Joint::LeftAnkle, Joint::LeftToe},
-                                               {Joint::Pelvis, Joint::RightHip},
-                                               {Joint::RightHip, Joint::RightKnee},
-                                               {Joint::RightKnee, Joint::RightAnkle},
-                                               {Joint::RightAnkle, Joint::RightToe}}};
 
 constexpr int kSubpixelBits = 4;  // OpenCV draws anti-aliased shapes at 1/16 px
 const cv::Scalar kOutline(25, 22, 20);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "libtracker/core/stick_figure.h"
 #include "libtracker/evaluation/match_frames.h"
 #include "libtracker/evaluation/mean.h"
 
@@ -13,25 +14,6 @@ namespace depthmocap {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-// The lines of the stick figure, from the pelvis outwards.
-constexpr std::array<std::pair<Joint, Joint>, kJointCount - 1> kBones = {{{Joint::Pelvis, Joint::Spine},
-                                                                          {Joint::Spine, Joint::Neck},
-                                                                          {Joint::Neck, Joint::Head},
-                                                                          {Joint::Neck, Joint::LeftShoulder},
-                                                                          {Joint::LeftShoulder, Joint::LeftElbow},
-                                                                          {Joint::LeftElbow, Joint::LeftWrist},
-                                                                          {Joint::Neck, Joint::RightShoulder},
-                                                                          {Joint::RightShoulder, Joint::RightElbow},
-                                                                          {Joint::RightElbow, Joint::RightWrist},
-                                                                          {Joint::Pelvis, Joint::LeftHip},
-                                                                          {Joint::LeftHip, Joint::LeftKnee},
-                                                                          {Joint::LeftKnee, Joint::LeftAnkle},
-                                                                          {Joint::LeftAnkle, Joint::LeftToe},
-                                                                          {Joint::Pelvis, Joint::RightHip},
-                                                                          {Joint::RightHip, Joint::RightKnee},
-                                                                          {Joint::RightKnee, Joint::RightAnkle},
-                                                                          {Joint::RightAnkle, Joint::RightToe}}};
 
 bool hasPose(const JointsRow& row) {
   return row.state != TrackState::Lost;
@@ -43,7 +25,7 @@ JointPositions placed(const JointsRow& row, const EvaluationOptions& options) {
 }
 
 void addBoneErrors(const JointPositions& a, const JointPositions& b, Mean& mean) {
-  for (const auto& [from, to] : kBones) {
+  for (const auto& [from, to] : kBoneLines) {
     const Eigen::Vector3d bone_a = a.col(static_cast<int>(to)) - a.col(static_cast<int>(from));
     const Eigen::Vector3d bone_b = b.col(static_cast<int>(to)) - b.col(static_cast<int>(from));
     if (bone_a.isZero() || bone_b.isZero()) continue;  // a bone of no length has no direction
