@@ -9,6 +9,7 @@
 
 #include "calibration/pose_cost.h"
 #include "libtracker/core/check.h"
+#include "libtracker/match/most_likely_point.h"
 
 namespace depthmocap {
 namespace {
@@ -130,35 +131,15 @@ PlacedParts place(const BodyTemplate& body, const ShapeVector& shape, const Forw
   return placed;
 }
 
-// The most likely surface point by distance and part.
-const PlacedPoint* nearest(const PlacedParts& placed, const CloudPoint& sample) {
-  constexpr auto kPerSquare = static_cast<float>(0.5 / (kNearness_m * kNearness_m));
-  constexpr auto kFarthest = static_cast<float>(kReach_m * kReach_m);
-  const PlacedPoint* best = nullptr;
-  float best_cost = std::numeric_limits<float>::max();
-  for (std::size_t part = 0; part < kPartCount; ++part) {
-    const float doubt = -std::log(std::max(sample.probability[part], static_cast<float>(kPartDoubt)));
-    if (doubt >= best_cost) continue;
-    for (const PlacedPoint& point : placed[part]) {
-      const float square = (point.p_world - sample.p_world).squaredNorm();
-      const float cost = square * kPerSquare + doubt;
-      if (cost >= best_cost || square > kFarthest) continue;
-      best_cost = cost;
-      best = &point;
-    }
-  }
-  return best;
-}
-
 void matchCloud(const PlacedParts& placed, const std::vector<CloudPoint>& cloud, std::vector<CloudMatch>& matches) {
   matches.clear();
+  constexpr PointLikelihood kLikelihood{kNearness_m, kReach_m, kPartDoubt};
   for (const CloudPoint& sample : cloud) {
-    const PlacedPoint* best = nearest(placed, sample);
+    const PlacedPoint* best = mostLikelyPoint(placed, sample.p_world, sample.probability, kLikelihood);
     if (best == nullptr) continue;
     const Vector3d n = best->n_world.cast<double>();
     const double off = n.dot((best->p_world - sample.p_world).cast<double>());
-    matches.push_back({best->model, sample.p_world.cast<double>(), n,
-                       1.0 / (1.0 + off * off / (2.0 * kLorentzian_m * kLorentzian_m))});
+    matches.push_back({best->model, sample.p_world.cast<double>(), n, lorentzianWeight(off, kLorentzian_m)});
   }
 }
 

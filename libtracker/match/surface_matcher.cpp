@@ -1,10 +1,9 @@
 #include "libtracker/match/surface_matcher.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "depthmocap/error.h"
+#include "libtracker/match/most_likely_point.h"
 
 namespace depthmocap {
 std::vector<ConfigField> SurfaceMatchConfig::fields() {
@@ -28,32 +27,18 @@ SurfaceMatcher::SurfaceMatcher(const SurfaceMatchConfig& config) : config_(confi
 void SurfaceMatcher::match(const PlacedSurface& placed, const std::vector<SurfaceSample>& samples,
                            SurfaceMatches& matches) const {
   matches.clear();
-  const auto max_d = static_cast<float>(config_.max_distance_m * config_.max_distance_m);
-  const auto per_d = static_cast<float>(0.5 / (config_.match_sigma_m * config_.match_sigma_m));
-  const auto min_probability = static_cast<float>(config_.min_probability);
+  const PointLikelihood likelihood{config_.match_sigma_m, config_.max_distance_m, config_.min_probability};
   const std::size_t count = std::min<std::size_t>(samples.size(), static_cast<std::size_t>(config_.max_matches));
   for (std::size_t i = 0; i < count; ++i) {
     const SurfaceSample& sample = samples[i * samples.size() / count];
-    float best = std::numeric_limits<float>::max();
-    const PlacedSurface::Point* nearest = nullptr;
-    for (std::size_t part = 0; part < kPartCount; ++part) {
-      // Half the squared distance over sigma^2, and what the classifier thinks of the part, as log likelihoods.
-      const float doubt = -std::log(std::max(sample.probability[part], min_probability));
-      for (const PlacedSurface::Point& point : placed.parts[part]) {
-        const float d = (point.p_world - sample.p_world).squaredNorm();
-        const float cost = d * per_d + doubt;
-        if (cost >= best || d > max_d) continue;
-        best = cost;
-        nearest = &point;
-      }
-    }
+    const PlacedSurface::Point* nearest = mostLikelyPoint(placed.parts, sample.p_world, sample.probability, likelihood);
     if (nearest == nullptr) continue;
     SurfaceMatch match;
     match.model = nearest->model;
     match.p_world = sample.p_world.cast<double>();
     match.n_world = nearest->n_world.cast<double>();
     const double off = match.n_world.dot((nearest->p_world - sample.p_world).cast<double>());
-    match.weight = 1.0 / (1.0 + off * off / (2.0 * config_.sigma_m * config_.sigma_m));
+    match.weight = lorentzianWeight(off, config_.sigma_m);
     matches.push_back(match);
   }
 }
