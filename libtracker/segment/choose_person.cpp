@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libtracker/segment/depth_noise.h"
+
 namespace depthmocap {
 
 namespace {
@@ -47,10 +49,9 @@ constexpr float kBoxShare = 1.0F;
 constexpr float kLimbedFill = 0.75F;
 // The same share from which it is a cupboard.
 constexpr float kBoxFill = 0.90F;
-// [m] Standard deviation across the surface of a door or the front of a cupboard; a body's is 4 cm and more.
+// [m] Standard deviation across the surface of a door or the front of a cupboard, to which depth noise adds
+// (kDepthNoise_per_m); a body's is 4 cm and more.
 constexpr float kPanelThickness_m = 0.012F;
-// [1/m] What depth noise adds to that, times the square of the depth; as kDepthNoise_per_m (planes.h).
-constexpr float kPanelNoise_per_m = 0.0015F;
 // Score of a board where the background is removed. Where a board hid a tenth of the actor, joints were 25 mm off with
 // it and 0.8 m without (docs/tuning.md).
 constexpr float kPanelShare = 0.001F;
@@ -77,7 +78,7 @@ float likeness(float value, float full_at, float thing_at) {
 }
 
 bool isPanel(const Component& c) {
-  return c.thickness_m < kPanelThickness_m + kPanelNoise_per_m * c.mean.z() * c.mean.z();
+  return c.thickness_m < kPanelThickness_m + kDepthNoise_per_m * c.mean.z() * c.mean.z();
 }
 
 // Where only people should be left, every shape is a person's but that of a board that was held before them.

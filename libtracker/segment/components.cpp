@@ -5,14 +5,14 @@
 #include <array>
 #include <cmath>
 
+#include "libtracker/segment/depth_noise.h"
+
 namespace depthmocap {
 
 namespace {
 
 // Chosen by hand: no comparison of values is on record (docs/tuning.md).
 
-// [m] Depth beyond which SegmentConfig::cluster_gap_m grows in proportion, as the distance of neighbouring cells does.
-constexpr float kGapGrowsFrom_m = 3.0F;
 // [m] Height of the uppermost slice, whose width tells a head from a cupboard's top.
 constexpr float kTopSlice_m = 0.2F;
 // Share of a component's cells that must be somebody's for the component to be.
@@ -57,7 +57,7 @@ void ComponentFinder::connectCells(const CoarseCloud& cloud, const std::vector<s
       const bool used = keep[i] != 0 && p.z() > 0;
       parent_[i] = used ? static_cast<std::int32_t>(i) : kNoComponent;
       if (!used) continue;
-      const float gap = gap_m * std::max(1.0F, p.z() / kGapGrowsFrom_m);
+      const float gap = gap_m * gapGrowth(p.z());
       const auto tryJoin = [&](const Step& step) {
         const int nx = x + step.x;
         const int ny = y + step.y;

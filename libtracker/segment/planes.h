@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libtracker/segment/coarse_cloud.h"
+#include "libtracker/segment/depth_noise.h"
 
 namespace depthmocap {
 
@@ -36,9 +37,6 @@ class PlaneFinder {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-// Depth noise grows with the square of the distance: one standard deviation is about this times depth^2 [1/m].
-inline constexpr float kDepthNoise_per_m = 0.0015F;
 
 // How far above the floor a point at this depth may still be floor [m]. Depth noise moves a point along its ray, which
 // meets the floor at a small angle, so that feet can be told from the floor far away too. `distance_m`: for floors that

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libtracker/segment/depth_noise.h"
 #include "libtracker/segment/planes.h"
 
 namespace depthmocap {
@@ -12,8 +13,6 @@ namespace {
 // [m] Largest step between neighbouring pixels of one surface. Chosen by hand (docs/tuning.md).
 constexpr float kGrowStep_m = 0.02F;
 constexpr std::uint8_t kOpen = 2;  // mask value while working: no cell speaks for this pixel
-// [m] Depth from which SegmentConfig::cluster_gap_m grows in proportion; as in components.cpp.
-constexpr float kGapGrowsFrom_m = 3.0F;
 
 struct CellBox {
   int x0, y0, x1, y1;  // inclusive
@@ -84,7 +83,7 @@ class BlockRefiner {
     if (!(z > 0 && z >= static_cast<float>(limits_.min_depth_m) && z <= static_cast<float>(limits_.max_depth_m)))
       return 0;
     if (limits_.floor && onFloor(x, y, z)) return 0;
-    float nearest = static_cast<float>(limits_.gap_m) * std::max(1.0F, z / kGapGrowsFrom_m);
+    float nearest = static_cast<float>(limits_.gap_m) * gapGrowth(z);
     std::uint8_t answer = kOpen;
     for (int k = 0; k < corner_count; ++k) {
       const float distance = std::abs(corners_[k].z - z);

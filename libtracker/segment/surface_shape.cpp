@@ -1,10 +1,11 @@
 #include "libtracker/segment/surface_shape.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "libtracker/segment/depth_noise.h"
 
 namespace depthmocap {
 
@@ -32,7 +33,7 @@ Eigen::Vector3f cellNormal(const CoarseCloud& cloud, int x, int y) {
   const Eigen::Vector3f& right = cloud.points[cloud.index(x + kNormalReach, y)];
   const Eigen::Vector3f& above = cloud.points[cloud.index(x, y - kNormalReach)];
   const Eigen::Vector3f& below = cloud.points[cloud.index(x, y + kNormalReach)];
-  const float span = kMaxNormalSpan_m * std::max(1.0F, p.z() / 3.0F);
+  const float span = kMaxNormalSpan_m * gapGrowth(p.z());
   for (const Eigen::Vector3f* q : {&left, &right, &above, &below}) {
     if (!(q->z() > 0) || (*q - p).squaredNorm() > span * span) return Eigen::Vector3f::Zero();
   }
