@@ -76,8 +76,5 @@ BodyFrame frameOf(const FrameChannels& channels);
 constexpr double sideSign(Side side) {
   return side == Side::Left ? 1.0 : -1.0;
 }
-constexpr Side otherSide(Side side) {
-  return side == Side::Left ? Side::Right : Side::Left;
-}
 
 }  // namespace depthmocap

@@ -110,13 +110,6 @@ Segmenter::~Segmenter() = default;
 Segmenter::Segmenter(Segmenter&&) noexcept = default;
 Segmenter& Segmenter::operator=(Segmenter&&) noexcept = default;
 
-void Segmenter::reset() {
-  impl_->planes = {};
-  impl_->frames_since_planes = -1;
-  impl_->memory.forget();
-  impl_->company_frames = 0;
-}
-
 // The planes of a still room do not move: look for them now and then, and when the floor is no longer where it was.
 void Segmenter::Impl::updatePlanes() {
   bool due = frames_since_planes < 0 || ++frames_since_planes >= config.plane_interval;

@@ -66,8 +66,6 @@ class Segmenter {
   // `depth` has the camera's size. `expected` null: anybody may be the actor, and who was who is forgotten. Reuses the
   // memory of `out`.
   void segment(const DepthImage& depth, const CameraModel& camera, const ExpectedActor* expected, Segmentation& out);
-  // Forgets everything, as for a new recording.
-  void reset();
 
  private:
   struct Impl;

@@ -36,7 +36,7 @@ MapFunction::MapFunction(const MapInput& input, const MapConfig& config)
     : config_(config),
       marker_(input.skeleton, input.markers, input.markers_world, config.lambda_marker, config.sigma_m),
       prior_(input.prior, config.lambda_prior),
-      smooth_(input.q_prev, input.q_prev2, input.time_ratio * config.velocity_share, config.lambda_smooth),
+      smooth_(input.q_prev, input.q_prev2, config.velocity_share, config.lambda_smooth),
       limit_(config.lambda_limit),
       surface_(input.skeleton, input.surface, config.lambda_surface, config.sigma_surface_m),
       contact_(input.skeleton, input.contacts, config.lambda_contact, config.sigma_contact_m) {}

@@ -41,7 +41,6 @@ struct MapInput {
   const Pose* q_prev2 = nullptr;
   const SurfaceMatches* surface = nullptr;  // nullptr: no dense term
   const FootContacts* contacts = nullptr;   // nullptr: no foot stands
-  double time_ratio = 1.0;                  // (> 0) time since q_prev over the time between q_prev2 and q_prev
 };
 
 // Result of a solve. e_*: the terms of (5) without their lambda, at the result.
