@@ -1,13 +1,12 @@
 #include "forest/train/recorded_image_source.h"
 
-#include <opencv2/imgcodecs.hpp>
-#include <vector>
+#include <opencv2/core.hpp>
 
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
 #include "depthmocap/parts.h"
-#include "libtracker/core/atomic_file.h"
+#include "forest/train/write_picture.h"
 #include "libtracker/recording/part_colors.h"
 #include "libtracker/recording/png_file.h"
 
@@ -60,9 +59,7 @@ void writeColouredLabels(const PartImage& labels, const std::filesystem::path& p
       picture.at<cv::Vec3b>(y, x) = {rgb[2], rgb[1], rgb[0]};
     }
   }
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", picture, png)) throw Error("cannot encode the picture", path.string());
-  writeFileAtomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  writePicture(picture, path);
 }
 
 }  // namespace depthmocap

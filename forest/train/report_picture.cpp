@@ -1,15 +1,13 @@
 #include "forest/train/report_picture.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "depthmocap/error.h"
-#include "libtracker/core/atomic_file.h"
+#include "forest/train/write_picture.h"
 
 namespace depthmocap {
 namespace {
@@ -88,9 +86,7 @@ void drawReport(const TrainingReport& report, const std::filesystem::path& path)
   drawCurve(report.by_trees, "mean accuracy by trees", panel(0));
   drawCurve(report.by_depth, "mean accuracy by depth", panel(1));
   drawCurve(report.by_images, report.by_images.empty() ? "" : "mean accuracy of one tree by images", panel(2));
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", picture, png)) throw Error("cannot encode the picture", path.string());
-  writeFileAtomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  writePicture(picture, path);
 }
 
 }  // namespace depthmocap

@@ -2,11 +2,12 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <sstream>
+#include <filesystem>
+#include <utility>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/core/byte_reader.h"
 
 // Layout, little-endian: "DMCPOSE1"; u32 length of origin, origin; then in the order of LearnedPoses, a matrix as u32
 // rows, u32 columns and its numbers as 16-bit floats, column by column. A Gaussian is weight, mean, basis, deviation
@@ -55,29 +56,15 @@ class Out {
   std::string bytes;
 };
 
-class In {
+class In : public ByteReader {
  public:
-  In(std::string bytes, std::string where) : bytes_(std::move(bytes)), where_(std::move(where)) {}
+  explicit In(const std::filesystem::path& path) : ByteReader(path, "the file of learned poses") {}
 
-  void raw(void* to, std::size_t size) {
-    if (bytes_.size() - at_ < size) throw Error("the file of learned poses is cut short", where_);
-    std::memcpy(to, bytes_.data() + at_, size);
-    at_ += size;
-  }
-  std::uint32_t count(std::uint32_t most) {
-    std::uint32_t value = 0;
-    raw(&value, sizeof value);
-    check(value <= most);
-    return value;
-  }
-  void check(bool condition) const {
-    if (!condition) throw Error("the file of learned poses is damaged", where_);
-  }
   Eigen::MatrixXd matrix() {
     const auto rows = static_cast<Eigen::Index>(count(kMaxSize));
     const auto cols = static_cast<Eigen::Index>(count(kMaxSize));
     const std::size_t size = static_cast<std::size_t>(rows * cols) * sizeof(Eigen::half);
-    if (bytes_.size() - at_ < size) throw Error("the file of learned poses is cut short", where_);
+    require(size);
     Eigen::Matrix<Eigen::half, Eigen::Dynamic, Eigen::Dynamic> stored(rows, cols);
     raw(stored.data(), size);
     Eigen::MatrixXd m = stored.cast<double>();
@@ -127,12 +114,6 @@ class In {
     coder.decoder = network(coder.encoder.outputs() / code_share, kShapeDofCount);
     return coder;
   }
-  void end() const { check(at_ == bytes_.size()); }
-
- private:
-  std::string bytes_;
-  std::string where_;
-  std::size_t at_ = 0;
 };
 
 }  // namespace
@@ -153,11 +134,7 @@ void saveLearnedPoses(const LearnedPoses& poses, const std::filesystem::path& pa
 }
 
 LearnedPoses loadLearnedPoses(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("cannot open the file of learned poses", path.string());
-  std::ostringstream content;
-  content << file.rdbuf();
-  In in(std::move(content).str(), path.string());
+  In in(path);
   char magic[8];
   in.raw(magic, sizeof magic);
   if (std::memcmp(magic, kMagic, sizeof magic) != 0) throw Error("is no file of learned poses", path.string());

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <sstream>
+#include <filesystem>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/core/byte_reader.h"
 #include "libtracker/posedb_build/pose_mixture.h"
 
 // Layout, little-endian: "DMCPMIX1", u32 length of origin, origin, u32 components, then a component: f32 weight and its
@@ -29,35 +29,16 @@ void putNumbers(std::string& out, const float* values, Eigen::Index count, doubl
   }
 }
 
-class Bytes {
+class Bytes : public ByteReader {
  public:
-  Bytes(std::string bytes, std::string where) : bytes_(std::move(bytes)), where_(std::move(where)) {}
-  void get(void* to, std::size_t size) {
-    if (bytes_.size() - at_ < size) throw Error("the pose mixture is cut short", where_);
-    std::memcpy(to, bytes_.data() + at_, size);
-    at_ += size;
-  }
-  std::uint32_t count(std::uint32_t most) {
-    std::uint32_t value = 0;
-    get(&value, sizeof value);
-    if (value > most) throw Error("the pose mixture is damaged", where_);
-    return value;
-  }
+  explicit Bytes(const std::filesystem::path& path) : ByteReader(path, "the pose mixture") {}
   void numbers(float* to, Eigen::Index count, double unit) {
     for (Eigen::Index i = 0; i < count; ++i) {
       std::int16_t stored = 0;
-      get(&stored, sizeof stored);
+      raw(&stored, sizeof stored);
       to[i] = static_cast<float>(stored * unit);
     }
   }
-  void end() const {
-    if (at_ != bytes_.size()) throw Error("the pose mixture is damaged", where_);
-  }
-
- private:
-  std::string bytes_;
-  std::string where_;
-  std::size_t at_ = 0;
 };
 
 }  // namespace
@@ -79,22 +60,18 @@ void savePoseMixture(const PoseMixture& mixture, const std::filesystem::path& pa
 }
 
 PoseMixture loadPoseMixture(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("cannot open the pose mixture", path.string());
-  std::ostringstream content;
-  content << file.rdbuf();
-  Bytes bytes(std::move(content).str(), path.string());
+  Bytes bytes(path);
   char magic[8];
-  bytes.get(magic, sizeof magic);
+  bytes.raw(magic, sizeof magic);
   if (std::memcmp(magic, kMagic, sizeof magic) != 0) throw Error("not a pose mixture", path.string());
   PoseMixture mixture;
   mixture.origin.resize(bytes.count(kMaxOrigin));
-  bytes.get(mixture.origin.data(), mixture.origin.size());
+  bytes.raw(mixture.origin.data(), mixture.origin.size());
   const std::uint32_t count = bytes.count(kMaxComponents);
   for (std::uint32_t i = 0; i < count; ++i) {
     PoseMixture::Component component;
-    bytes.get(&component.weight, sizeof component.weight);
-    if (!(component.weight >= 0 && component.weight <= 1)) throw Error("the pose mixture is damaged", path.string());
+    bytes.raw(&component.weight, sizeof component.weight);
+    bytes.check(component.weight >= 0 && component.weight <= 1);
     bytes.numbers(component.mean.data(), component.mean.size(), kAngleUnit_rad);
     bytes.numbers(component.basis.data(), component.basis.size(), kBasisUnit);
     bytes.numbers(component.deviation.data(), component.deviation.size(), kAngleUnit_rad);

@@ -1,0 +1,42 @@
+#include "libtracker/core/byte_reader.h"
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "depthmocap/error.h"
+
+namespace depthmocap {
+
+ByteReader::ByteReader(const std::filesystem::path& path, std::string what)
+    : what_(std::move(what)), where_(path.string()) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error("cannot open " + what_, where_);
+  std::ostringstream content;
+  content << file.rdbuf();
+  bytes_ = std::move(content).str();
+}
+
+void ByteReader::require(std::size_t size) const {
+  if (bytes_.size() - at_ < size) throw Error(what_ + " is cut short", where_);
+}
+
+void ByteReader::raw(void* to, std::size_t size) {
+  require(size);
+  std::memcpy(to, bytes_.data() + at_, size);
+  at_ += size;
+}
+
+std::uint32_t ByteReader::count(std::uint32_t most) {
+  std::uint32_t value = 0;
+  raw(&value, sizeof value);
+  check(value <= most);
+  return value;
+}
+
+void ByteReader::check(bool condition) const {
+  if (!condition) throw Error(what_ + " is damaged", where_);
+}
+
+}  // namespace depthmocap
