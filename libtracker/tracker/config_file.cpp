@@ -67,6 +67,7 @@ struct Assign {
 template <typename Items>
 std::string unknown(const std::string& name, const Items& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const auto& item : items) names.emplace_back(item.name);
   return fmt::format("there is no \"{}\"; did you mean \"{}\"?", name, nearestName(name, names));
 }
@@ -88,11 +89,13 @@ void readConfigFile(const std::filesystem::path& path, TrackerConfig& config) {
     if (section_name == "format" || section_name == "version") continue;
     TrackerConfig::Section* section = find(sections, section_name);
     if (section == nullptr) throw Error(unknown(section_name, sections), where);
-    if (!given.is_object()) throw Error("must be an object", where + ": " + section_name);
+    const std::string at = fmt::format("{}: {}", where, section_name);
+    if (!given.is_object()) throw Error("must be an object", at);
     for (const auto& [name, value] : given.items()) {
       ConfigField* field = find(section->fields, name);
-      if (field == nullptr) throw Error(unknown(name, section->fields), where + ": " + section_name);
-      std::visit(Assign{value, where + ": " + section_name + "." + name}, field->value);
+      if (field == nullptr) throw Error(unknown(name, section->fields), at);
+      const std::string field_at = fmt::format("{}.{}", at, name);
+      std::visit(Assign{value, field_at}, field->value);
     }
   }
   try {
