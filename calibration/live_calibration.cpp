@@ -55,9 +55,9 @@ bool LiveCalibration::add(const DepthFrame& frame) {
     return say(fmt::format("Calibrating in {:.0f}: stand upright, facing the camera, arms out to the sides.",
                            std::ceil(kCountdown_s - elapsed_s)));
   }
-  if (elapsed_s > kCountdown_s + kPatience_s) throw Error("no T-pose was seen in time", "calibration", text_);
   if (isReady(loading_)) run_ = loading_.get();
   if (!run_) return say("Loading what a calibration needs.");
+  if (elapsed_s > kCountdown_s + kPatience_s) throw Error("no T-pose was seen in time", "calibration", text_);
   const TPoseVerdict verdict = run_->add(frame);
   if (run_->enough()) {
     startSolving();

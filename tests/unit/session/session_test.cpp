@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <chrono>
+#include <deque>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -169,6 +172,24 @@ TEST_F(Sessions, ACameraGoesTheSameWay) {
   EXPECT_EQ(session.figures().damaged, 1);
   EXPECT_EQ(static_cast<std::int64_t>(log_.size()) + session.figures().replaced, 2);
   EXPECT_EQ(a_.last.tracked, static_cast<std::int64_t>(log_.size()));
+}
+
+TEST_F(Sessions, ACameraNeverWaitsForASlowSink) {
+  class Slow : public FrameSink {
+    void onFrame(const SessionFrame&) override { std::this_thread::sleep_for(std::chrono::milliseconds(20)); }
+  } slow;
+  constexpr int kFrames = 50;
+  std::deque<ScriptedSource::Step> script;
+  for (int i = 0; i < kFrames; ++i) script.push_back(ScriptedSource::frame(i));
+  ScriptedSource source(script);
+  LiveSession session(source, tracker_, nullptr, {});
+  session.addSink(a_);
+  session.addSink(slow);
+  session.run();
+  EXPECT_EQ(session.figures().received, kFrames);
+  EXPECT_GT(session.figures().replaced, 0) << "frames come at once, the sink takes 20 ms for each";
+  EXPECT_EQ(static_cast<std::int64_t>(log_.size()) + session.figures().replaced, kFrames);
+  EXPECT_EQ(log_.back(), "a" + std::to_string(kFrames - 1)) << "the newest frame is never left out";
 }
 
 }  // namespace
