@@ -83,7 +83,7 @@ function onHello(message) {
   if (message.mode === "idle") say("No camera and no recording: start `depthmocap live --view` or `replay --view`.");
 }
 
-// JSON, then the depth picture, then the labels (docs/streaming.md).
+// JSON, then the depth picture, then the labels (docs/reference/stream.md).
 function parseFrame(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const frame = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
