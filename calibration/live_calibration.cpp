@@ -12,9 +12,7 @@ namespace depthmocap {
 namespace {
 
 constexpr double kCountdown_s = 3.0;
-constexpr double kPatience_s = 30.0;   // after the countdown
-constexpr int kKeepEvery = 3;          // [frames] neighbours hardly differ
-constexpr std::size_t kMostKept = 60;  // frames in other poses: 6 s, 74 MB of VGA depth
+constexpr double kPatience_s = 30.0;  // after the countdown
 
 template <typename Result>
 bool isReady(const std::future<Result>& future) {
@@ -40,16 +38,10 @@ bool LiveCalibration::say(const std::string& text) {
   return true;
 }
 
-void LiveCalibration::keep(const DepthFrame& frame) {
-  if (seen_++ % kKeepEvery != 0) return;
-  others_.push_back(frame);
-  if (others_.size() > kMostKept) others_.pop_front();
-}
-
 bool LiveCalibration::add(const DepthFrame& frame) {
   if (solving_.valid()) return false;
   if (!start_s_) start_s_ = frame.time_s;
-  keep(frame);
+  others_.add(frame);
   const double elapsed_s = frame.time_s - *start_s_;
   if (elapsed_s < kCountdown_s) {
     return say(fmt::format("Calibrating in {:.0f}: stand upright, facing the camera, arms out to the sides.",
@@ -70,9 +62,7 @@ bool LiveCalibration::add(const DepthFrame& frame) {
 void LiveCalibration::startSolving() {
   solving_ = std::async(std::launch::async, [run = std::move(run_), others = std::move(others_)]() mutable {
     runInBackground();
-    return run->solve([&](const auto& visit) {
-      for (const DepthFrame& frame : others) visit(frame);
-    });
+    return run->solve(others);
   });
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-#include <deque>
 #include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "calibration/calibration_run.h"
+#include "calibration/other_frames.h"
 
 namespace depthmocap {
 
@@ -29,15 +29,13 @@ class LiveCalibration {
 
  private:
   bool say(const std::string& text);
-  void keep(const DepthFrame& frame);
   void startSolving();
 
   std::future<std::unique_ptr<CalibrationRun>> loading_;
   std::unique_ptr<CalibrationRun> run_;
-  std::deque<DepthFrame> others_;  // what the actor did before and between the good frames
+  OtherFrames others_;
   std::future<Actor> solving_;
   std::optional<double> start_s_;  // by the sensor's time
-  std::int64_t seen_ = 0;
   std::string text_;
 };
 

@@ -15,6 +15,7 @@
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
 #include "calibration/calibration_run.h"
+#include "calibration/other_frames.h"
 #include "depthmocap/error.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/sensor/open_source.h"
@@ -26,8 +27,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kWait{200};  // for one frame of a camera
-constexpr int kKeepEvery = 3;                    // [frames] of a camera; neighbours hardly differ
-constexpr std::size_t kMostKept = 60;            // frames of a camera in other poses
 
 struct CalibrateOptions {
   fs::path recording;
@@ -76,18 +75,18 @@ CalibrationRun::Frames othersOf(RecordingReader& reader) {
 
 // Until enough good frames have come; tells the actor what to change. What the actor does meanwhile may be told from
 // the T-pose later.
-std::vector<DepthFrame> watch(DepthSource& source, CalibrationRun& run, double limit_s) {
+OtherFrames watch(DepthSource& source, CalibrationRun& run, double limit_s) {
   const StopRequest on_ctrl_c;
   const auto start = SensorClock::now();
-  std::vector<DepthFrame> others;
+  OtherFrames others;
   SensorFrame frame;
   std::string said;
-  for (std::int64_t seen = 0; !run.enough() && !StopRequest::made();) {
+  while (!run.enough() && !StopRequest::made()) {
     if (SensorClock::now() - start > std::chrono::duration<double>(limit_s)) break;
     const SourceState state = source.next(frame, kWait);
     if (state == SourceState::Ended) break;
     if (state != SourceState::Frame) continue;
-    if (seen++ % kKeepEvery == 0 && others.size() < kMostKept) others.push_back(frame.depth);
+    others.add(frame.depth);
     const TPoseVerdict verdict = run.add(frame.depth);
     const std::string text = verdict.good() ? "good, hold still" : verdict.advice;
     if (text != said) std::cerr << text << '\n';
@@ -118,9 +117,8 @@ CalibrationRun newRun(const CalibrateOptions& o, const RecordingInfo& info) {
 Calibration calibrateLive(const CalibrateOptions& o) {
   const auto source = openSource(o.recording.string(), {});
   CalibrationRun run = newRun(o, source->info());
-  const std::vector<DepthFrame> others = watch(*source, run, o.seconds);
-  const auto frames = [&](const auto& visit) { std::for_each(others.begin(), others.end(), visit); };
-  return finish(o, run, frames, source->info().camera);
+  const OtherFrames others = watch(*source, run, o.seconds);
+  return finish(o, run, others, source->info().camera);
 }
 
 Calibration calibrateRecording(const CalibrateOptions& o) {
