@@ -166,6 +166,11 @@ KeyPose& KeySequence::add(const KeyPose& pose, double after_s) {
   return key;
 }
 
+KeyPose& KeySequence::last() {
+  DMC_CHECK(!keys_.empty());
+  return keys_.back();
+}
+
 BodyFrames playKeys(const Skeleton& skeleton, const KeySequence& sequence, const Performance& performance,
                     Random& random) {
   DMC_CHECK(sequence.keys().size() >= 2);

@@ -48,6 +48,7 @@ class KeySequence {
   KeyPose& base(double after_s);
   // A whole posture, `after_s` after the last key.
   KeyPose& add(const KeyPose& pose, double after_s);
+  KeyPose& last();
   [[nodiscard]] double end() const { return keys_.empty() ? 0.0 : keys_.back().time_s; }
   [[nodiscard]] const std::vector<KeyPose>& keys() const { return keys_; }
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "depthmocap/error.h"
+#include "libtracker/choreography/motion_library.h"
+#include "libtracker/choreography/motion_player.h"
 #include "libtracker/choreography/recipe.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
@@ -12,7 +15,7 @@ namespace {
 
 constexpr std::array kSubjects = {&locomotionRecipes, &jumpRecipes,   &fightingRecipes, &gestureRecipes,
                                   &drawingRecipes,    &sportsRecipes, &everydayRecipes, &sittingRecipes,
-                                  &exerciseRecipes,   &stanceRecipes, &danceRecipes};
+                                  &exerciseRecipes};
 
 std::string variantName(std::string_view name, int variant) {
   return variant == 0 ? std::string(name) : std::string(name) + "_" + std::to_string(variant + 1);
@@ -25,25 +28,46 @@ std::uint64_t streamOf(std::string_view name) {
   return hash;
 }
 
-MotionClip perform(const Recipe& recipe, int variant, std::uint64_t seed) {
+template <typename Make>
+MotionClip perform(std::string_view name, int variant, std::uint64_t seed, Make&& make) {
   MotionClip clip;
-  clip.name = variantName(recipe.name, variant);
+  clip.name = variantName(name, variant);
   clip.fps = kMotionFps;
   const Skeleton skeleton = makeSkeleton(clip.lengths);
   Random random(seed, streamOf(clip.name));
-  Studio studio{skeleton, random, variant};
-  clip.poses = finishMotion(skeleton, recipe.make(studio), random);
+  clip.poses = finishMotion(skeleton, make(skeleton, random), random);
   if (variant % 2 == 1) {
     for (Pose& q : clip.poses) q = mirroredPose(q);
   }
   return clip;
 }
 
+// One variant of a motion.
+using Perform = std::function<MotionClip(std::uint64_t seed)>;
+
 template <typename Visit>
 void forEachMotion(Visit&& visit) {
+  const auto visitVariants = [&](std::string_view name, int variants, const auto& make) {
+    for (int variant = 0; variant < variants; ++variant) {
+      visit(variantName(name, variant), [=](std::uint64_t seed) {
+        return perform(name, variant, seed,
+                       [&](const Skeleton& skeleton, Random& random) { return make(skeleton, random, variant); });
+      });
+    }
+  };
   for (const auto subject : kSubjects) {
     for (const Recipe& recipe : subject()) {
-      for (int variant = 0; variant < recipe.variants; ++variant) visit(recipe, variant);
+      visitVariants(recipe.name, recipe.variants, [&](const Skeleton& skeleton, Random& random, int variant) {
+        Studio studio{skeleton, random, variant};
+        return recipe.make(studio);
+      });
+    }
+  }
+  for (const MotionFile& file : motionLibrary()) {
+    for (const MotionScript& motion : file.motions) {
+      visitVariants(motion.name, motion.variants, [&](const Skeleton& skeleton, Random& random, int variant) {
+        return playMotion(motion, file.places, variant, skeleton, random);
+      });
     }
   }
 }
@@ -56,16 +80,16 @@ std::size_t commonPrefix(std::string_view a, std::string_view b) {
 
 std::vector<std::string> proceduralMotionNames() {
   std::vector<std::string> names;
-  forEachMotion([&](const Recipe& recipe, int variant) { names.push_back(variantName(recipe.name, variant)); });
+  forEachMotion([&](const std::string& name, const Perform&) { names.push_back(name); });
   return names;
 }
 
 MotionClip proceduralMotion(std::string_view name, std::uint64_t seed) {
   MotionClip clip;
   bool found = false;
-  forEachMotion([&](const Recipe& recipe, int variant) {
-    if (found || variantName(recipe.name, variant) != name) return;
-    clip = perform(recipe, variant, seed);
+  forEachMotion([&](const std::string& known, const Perform& performIt) {
+    if (found || known != name) return;
+    clip = performIt(seed);
     found = true;
   });
   if (found) return clip;
@@ -78,7 +102,7 @@ MotionClip proceduralMotion(std::string_view name, std::uint64_t seed) {
 
 std::vector<MotionClip> proceduralMotions(std::uint64_t seed) {
   std::vector<MotionClip> clips;
-  forEachMotion([&](const Recipe& recipe, int variant) { clips.push_back(perform(recipe, variant, seed)); });
+  forEachMotion([&](const std::string&, const Perform& performIt) { clips.push_back(performIt(seed)); });
   return clips;
 }
 

@@ -40,7 +40,5 @@ std::span<const Recipe> sportsRecipes();
 std::span<const Recipe> everydayRecipes();
 std::span<const Recipe> sittingRecipes();
 std::span<const Recipe> exerciseRecipes();
-std::span<const Recipe> stanceRecipes();
-std::span<const Recipe> danceRecipes();
 
 }  // namespace depthmocap

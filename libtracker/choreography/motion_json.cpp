@@ -1,0 +1,110 @@
+#include "libtracker/choreography/motion_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "depthmocap/error.h"
+#include "libtracker/core/nearest_name.h"
+
+namespace depthmocap {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kMaxDepth = 64;  // of values in values; by hand, far above what anybody writes and below any stack
+
+// What the library lets pass, found while a file is read: nesting without limit, and two members with the same key.
+class DamageFinder {
+ public:
+  explicit DamageFinder(std::string name) : name_(std::move(name)) {}
+
+  bool operator()(int depth, ordered_json::parse_event_t event, ordered_json& value) {
+    if (depth > kMaxDepth) throw Error("is nested too deeply", name_);
+    if (event == ordered_json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == ordered_json::parse_event_t::object_end) keys_.pop_back();
+    if (event == ordered_json::parse_event_t::key && !keys_.back().insert(value.get<std::string>()).second) {
+      throw Error("\"" + value.get<std::string>() + "\" stands twice in one object", name_);
+    }
+    return true;
+  }
+
+ private:
+  std::string name_;
+  std::vector<std::set<std::string>> keys_;
+};
+
+bool isNameCharacter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+}  // namespace
+
+ordered_json MotionJson::parse(std::string_view text, const std::string& name) {
+  ordered_json json;
+  try {
+    json = ordered_json::parse(text, DamageFinder(name));
+  } catch (const ordered_json::exception& failure) {
+    throw Error(std::string("is not valid JSON: ") + failure.what(), name);
+  }
+  if (!json.is_object()) throw Error("must hold a JSON object", name);
+  return json;
+}
+
+void MotionJson::fail(const std::string& what, const std::string& advice) const {
+  throw Error(what, where_, advice);
+}
+
+MotionJson MotionJson::at(const std::string& key) const {
+  if (!json_->is_object()) fail("must be an object");
+  if (!json_->contains(key)) fail("\"" + key + "\" is missing");
+  return {json_->at(key), where_ + "/" + key};
+}
+
+std::vector<std::pair<std::string, MotionJson>> MotionJson::members() const {
+  if (!json_->is_object()) fail("must be an object");
+  if (json_->empty()) fail("is empty", "leave it out or fill it");
+  std::vector<std::pair<std::string, MotionJson>> all;
+  for (const auto& [key, value] : json_->items()) all.emplace_back(key, MotionJson(value, where_ + "/" + key));
+  return all;
+}
+
+std::vector<MotionJson> MotionJson::elements() const {
+  if (!json_->is_array()) fail("must be a list");
+  if (json_->empty()) fail("is empty", "leave it out or fill it");
+  std::vector<MotionJson> all;
+  for (std::size_t i = 0; i < json_->size(); ++i) all.emplace_back((*json_)[i], where_ + "/" + std::to_string(i));
+  return all;
+}
+
+void MotionJson::checkKeys(const std::vector<std::string>& known) const {
+  for (const auto& [key, value] : members()) {
+    if (key == "about") {
+      static_cast<void>(value.text());
+    } else if (std::find(known.begin(), known.end(), key) == known.end()) {
+      fail("\"" + key + "\" is not known here", "did you mean \"" + nearestName(key, known) + "\"?");
+    }
+  }
+}
+
+std::string MotionJson::text() const {
+  if (!json_->is_string()) fail("must be a text");
+  return json_->get<std::string>();
+}
+
+int MotionJson::integer(int low, int high) const {
+  const double value = json_->is_number() ? json_->get<double>() : NAN;
+  if (!(value >= low && value <= high && value == std::floor(value))) {
+    fail("must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return static_cast<int>(value);
+}
+
+std::string MotionJson::newName() const {
+  std::string name = text();
+  const bool plain = std::all_of(name.begin(), name.end(), isNameCharacter);
+  if (name.empty() || !plain || (name[0] >= '0' && name[0] <= '9')) fail("must be a name of a-z, 0-9 and _");
+  return name;
+}
+
+}  // namespace depthmocap

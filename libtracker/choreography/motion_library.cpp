@@ -1,0 +1,42 @@
+#include "libtracker/choreography/motion_library.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "libtracker/choreography/motion_reader.h"
+
+namespace depthmocap {
+
+// Made by depthmocap_embed() in libtracker/CMakeLists.txt.
+std::string_view embeddedSharedMotions();
+std::string_view embeddedDanceMotions();
+std::string_view embeddedStanceMotions();
+
+namespace {
+
+struct EmbeddedFile {
+  std::string_view name;
+  std::string_view (*text)();
+};
+
+constexpr std::array kFiles = {
+    EmbeddedFile{"motions/stances.json", &embeddedStanceMotions},
+    EmbeddedFile{"motions/dance.json", &embeddedDanceMotions},
+};
+
+std::vector<MotionFile> readLibrary() {
+  const MotionFile shared = readMotionFile(embeddedSharedMotions(), "motions/shared.json");
+  std::vector<MotionFile> files;
+  for (const EmbeddedFile& file : kFiles) files.push_back(readMotionFile(file.text(), std::string(file.name), shared));
+  return files;
+}
+
+}  // namespace
+
+const std::vector<MotionFile>& motionLibrary() {
+  static const std::vector<MotionFile> files = readLibrary();
+  return files;
+}
+
+}  // namespace depthmocap
