@@ -39,6 +39,5 @@ std::span<const Recipe> drawingRecipes();
 std::span<const Recipe> sportsRecipes();
 std::span<const Recipe> everydayRecipes();
 std::span<const Recipe> sittingRecipes();
-std::span<const Recipe> exerciseRecipes();
 
 }  // namespace depthmocap
