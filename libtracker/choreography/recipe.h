@@ -38,6 +38,5 @@ std::span<const Recipe> gestureRecipes();
 std::span<const Recipe> drawingRecipes();
 std::span<const Recipe> sportsRecipes();
 std::span<const Recipe> everydayRecipes();
-std::span<const Recipe> sittingRecipes();
 
 }  // namespace depthmocap
