@@ -10,6 +10,7 @@ namespace depthmocap {
 
 // Made by depthmocap_embed() in libtracker/CMakeLists.txt.
 std::string_view embeddedSharedMotions();
+std::string_view embeddedEverydayMotions();
 std::string_view embeddedSittingMotions();
 std::string_view embeddedExerciseMotions();
 std::string_view embeddedDanceMotions();
@@ -23,6 +24,7 @@ struct EmbeddedFile {
 };
 
 constexpr std::array kFiles = {
+    EmbeddedFile{"motions/everyday.json", &embeddedEverydayMotions},
     EmbeddedFile{"motions/sitting.json", &embeddedSittingMotions},
     EmbeddedFile{"motions/exercise.json", &embeddedExerciseMotions},
     EmbeddedFile{"motions/stances.json", &embeddedStanceMotions},

@@ -37,6 +37,5 @@ std::span<const Recipe> fightingRecipes();
 std::span<const Recipe> gestureRecipes();
 std::span<const Recipe> drawingRecipes();
 std::span<const Recipe> sportsRecipes();
-std::span<const Recipe> everydayRecipes();
 
 }  // namespace depthmocap
