@@ -36,6 +36,5 @@ std::span<const Recipe> jumpRecipes();
 std::span<const Recipe> fightingRecipes();
 std::span<const Recipe> gestureRecipes();
 std::span<const Recipe> drawingRecipes();
-std::span<const Recipe> sportsRecipes();
 
 }  // namespace depthmocap
