@@ -35,6 +35,5 @@ std::span<const Recipe> locomotionRecipes();
 std::span<const Recipe> jumpRecipes();
 std::span<const Recipe> fightingRecipes();
 std::span<const Recipe> gestureRecipes();
-std::span<const Recipe> drawingRecipes();
 
 }  // namespace depthmocap
