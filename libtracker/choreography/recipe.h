@@ -34,6 +34,5 @@ struct Recipe {
 std::span<const Recipe> locomotionRecipes();
 std::span<const Recipe> jumpRecipes();
 std::span<const Recipe> fightingRecipes();
-std::span<const Recipe> gestureRecipes();
 
 }  // namespace depthmocap
