@@ -13,7 +13,7 @@
 namespace depthmocap {
 namespace {
 
-constexpr std::array kSubjects = {&locomotionRecipes, &jumpRecipes,   &fightingRecipes};
+constexpr std::array kSubjects = {&locomotionRecipes, &jumpRecipes};
 
 std::string variantName(std::string_view name, int variant) {
   return variant == 0 ? std::string(name) : std::string(name) + "_" + std::to_string(variant + 1);

@@ -33,6 +33,5 @@ struct Recipe {
 // The motions of each subject, one file each.
 std::span<const Recipe> locomotionRecipes();
 std::span<const Recipe> jumpRecipes();
-std::span<const Recipe> fightingRecipes();
 
 }  // namespace depthmocap
