@@ -13,7 +13,7 @@
 namespace depthmocap {
 namespace {
 
-constexpr std::array kSubjects = {&locomotionRecipes, &jumpRecipes};
+constexpr std::array kSubjects = {&locomotionRecipes};
 
 std::string variantName(std::string_view name, int variant) {
   return variant == 0 ? std::string(name) : std::string(name) + "_" + std::to_string(variant + 1);

@@ -32,6 +32,5 @@ struct Recipe {
 
 // The motions of each subject, one file each.
 std::span<const Recipe> locomotionRecipes();
-std::span<const Recipe> jumpRecipes();
 
 }  // namespace depthmocap
