@@ -10,6 +10,7 @@ namespace depthmocap {
 
 // Made by depthmocap_embed() in libtracker/CMakeLists.txt.
 std::string_view embeddedSharedMotions();
+std::string_view embeddedLocomotionMotions();
 std::string_view embeddedJumpMotions();
 std::string_view embeddedFightingMotions();
 std::string_view embeddedGestureMotions();
@@ -29,6 +30,7 @@ struct EmbeddedFile {
 };
 
 constexpr std::array kFiles = {
+    EmbeddedFile{"motions/locomotion.json", &embeddedLocomotionMotions},
     EmbeddedFile{"motions/jumps.json", &embeddedJumpMotions},
     EmbeddedFile{"motions/fighting.json", &embeddedFightingMotions},
     EmbeddedFile{"motions/gestures.json", &embeddedGestureMotions},

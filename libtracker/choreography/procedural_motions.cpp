@@ -1,22 +1,35 @@
 #include "libtracker/choreography/procedural_motions.h"
 
 #include <algorithm>
-#include <array>
-#include <functional>
 
 #include "depthmocap/error.h"
+#include "libtracker/choreography/motion_finish.h"
 #include "libtracker/choreography/motion_library.h"
 #include "libtracker/choreography/motion_player.h"
-#include "libtracker/choreography/recipe.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 namespace {
 
-constexpr std::array kSubjects = {&locomotionRecipes};
+// One variant of a motion.
+struct MotionVariant {
+  const MotionFile* file;
+  const MotionScript* motion;
+  int variant;
 
-std::string variantName(std::string_view name, int variant) {
-  return variant == 0 ? std::string(name) : std::string(name) + "_" + std::to_string(variant + 1);
+  [[nodiscard]] std::string name() const {
+    return variant == 0 ? motion->name : motion->name + "_" + std::to_string(variant + 1);
+  }
+};
+
+std::vector<MotionVariant> allVariants() {
+  std::vector<MotionVariant> all;
+  for (const MotionFile& file : motionLibrary()) {
+    for (const MotionScript& motion : file.motions) {
+      for (int variant = 0; variant < motion.variants; ++variant) all.push_back({&file, &motion, variant});
+    }
+  }
+  return all;
 }
 
 // FNV-1a: every motion draws from a random stream of its own.
@@ -26,48 +39,19 @@ std::uint64_t streamOf(std::string_view name) {
   return hash;
 }
 
-template <typename Make>
-MotionClip perform(std::string_view name, int variant, std::uint64_t seed, Make&& make) {
+MotionClip perform(const MotionVariant& one, std::uint64_t seed) {
   MotionClip clip;
-  clip.name = variantName(name, variant);
+  clip.name = one.name();
   clip.fps = kMotionFps;
   const Skeleton skeleton = makeSkeleton(clip.lengths);
   Random random(seed, streamOf(clip.name));
-  clip.poses = finishMotion(skeleton, make(skeleton, random), random);
+  const int variant = one.variant;
+  RawMotion raw = playMotion(*one.motion, one.file->places, variant, skeleton, random);
+  clip.poses = finishMotion(skeleton, std::move(raw), random);
   if (variant % 2 == 1) {
     for (Pose& q : clip.poses) q = mirroredPose(q);
   }
   return clip;
-}
-
-// One variant of a motion.
-using Perform = std::function<MotionClip(std::uint64_t seed)>;
-
-template <typename Visit>
-void forEachMotion(Visit&& visit) {
-  const auto visitVariants = [&](std::string_view name, int variants, const auto& make) {
-    for (int variant = 0; variant < variants; ++variant) {
-      visit(variantName(name, variant), [=](std::uint64_t seed) {
-        return perform(name, variant, seed,
-                       [&](const Skeleton& skeleton, Random& random) { return make(skeleton, random, variant); });
-      });
-    }
-  };
-  for (const auto subject : kSubjects) {
-    for (const Recipe& recipe : subject()) {
-      visitVariants(recipe.name, recipe.variants, [&](const Skeleton& skeleton, Random& random, int variant) {
-        Studio studio{skeleton, random, variant};
-        return recipe.make(studio);
-      });
-    }
-  }
-  for (const MotionFile& file : motionLibrary()) {
-    for (const MotionScript& motion : file.motions) {
-      visitVariants(motion.name, motion.variants, [&](const Skeleton& skeleton, Random& random, int variant) {
-        return playMotion(motion, file.places, variant, skeleton, random);
-      });
-    }
-  }
 }
 
 std::size_t commonPrefix(std::string_view a, std::string_view b) {
@@ -78,19 +62,14 @@ std::size_t commonPrefix(std::string_view a, std::string_view b) {
 
 std::vector<std::string> proceduralMotionNames() {
   std::vector<std::string> names;
-  forEachMotion([&](const std::string& name, const Perform&) { names.push_back(name); });
+  for (const MotionVariant& one : allVariants()) names.push_back(one.name());
   return names;
 }
 
 MotionClip proceduralMotion(std::string_view name, std::uint64_t seed) {
-  MotionClip clip;
-  bool found = false;
-  forEachMotion([&](const std::string& known, const Perform& performIt) {
-    if (found || known != name) return;
-    clip = performIt(seed);
-    found = true;
-  });
-  if (found) return clip;
+  for (const MotionVariant& one : allVariants()) {
+    if (one.name() == name) return perform(one, seed);
+  }
   const auto names = proceduralMotionNames();
   const auto nearest = std::max_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
     return commonPrefix(a, name) < commonPrefix(b, name);
@@ -100,7 +79,7 @@ MotionClip proceduralMotion(std::string_view name, std::uint64_t seed) {
 
 std::vector<MotionClip> proceduralMotions(std::uint64_t seed) {
   std::vector<MotionClip> clips;
-  forEachMotion([&](const std::string&, const Perform& performIt) { clips.push_back(performIt(seed)); });
+  for (const MotionVariant& one : allVariants()) clips.push_back(perform(one, seed));
   return clips;
 }
 
