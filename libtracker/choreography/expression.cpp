@@ -4,12 +4,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
 
 #include "depthmocap/error.h"
-#include "libtracker/choreography/draws.h"
 #include "libtracker/choreography/easing.h"
 #include "libtracker/choreography/flight.h"
 #include "libtracker/core/nearest_name.h"
@@ -27,15 +27,24 @@ struct Function {
   double (*call)(Random&, Arguments);
 };
 
+// A value within +-share of the given one.
+double drawNear(Random& random, Arguments a) {
+  constexpr double kUsualShare = 0.15;  // by hand
+  const double share = a.size() == 2 ? a[1] : kUsualShare;
+  return a[0] * random.uniform(1.0 - share, 1.0 + share);
+}
+// A whole number in [0, n); not a number if there is none.
+double drawBelow(Random& random, Arguments a) {
+  constexpr double kMost = 1e6;  // keeps n within 32 bits
+  if (!(a[0] >= 1.0 && a[0] <= kMost)) return std::numeric_limits<double>::quiet_NaN();
+  return random.below(static_cast<std::uint32_t>(a[0]));
+}
+
 constexpr std::array kFunctions = {
     Function{"uniform", 2, 2, [](Random& random, Arguments a) { return random.uniform(a[0], a[1]); }},
-    Function{"near", 1, 2, [](Random& random, Arguments a) {
-      return a.size() == 1 ? drawNear(random, a[0]) : drawNear(random, a[0], a[1]);
-    }},
-    Function{"chance", 1, 1, [](Random& random, Arguments a) { return drawChance(random, a[0]) ? 1.0 : 0.0; }},
-    Function{"below", 1, 1, [](Random& random, Arguments a) {
-      return a[0] >= 1 ? static_cast<double>(random.below(static_cast<std::uint32_t>(std::min(a[0], 1e6)))) : NAN;
-    }},
+    Function{"near", 1, 2, &drawNear},
+    Function{"chance", 1, 1, [](Random& random, Arguments a) { return random.uniform() < a[0] ? 1.0 : 0.0; }},
+    Function{"below", 1, 1, &drawBelow},
     Function{"min", 2, 2, [](Random&, Arguments a) { return std::min(a[0], a[1]); }},
     Function{"max", 2, 2, [](Random&, Arguments a) { return std::max(a[0], a[1]); }},
     Function{"sin", 1, 1, [](Random&, Arguments a) { return std::sin(a[0]); }},

@@ -12,9 +12,10 @@ constexpr double kRaise = 0.7;  // [s] the hand comes up and goes down again; by
 constexpr double kRest = 0.8;   // [s] of an orbit, beyond its rounds; by hand
 
 BodyFrames standStill(const Skeleton& skeleton, double duration_s, Random& random) {
-  KeySequence s(standing(random.uniform(0.09, 0.18)));
-  s.at(0.0);
-  for (double t = 1.0; t < duration_s + 1.0; t += 1.0) s.then(1.0);
+  const KeyPose pose = standing(random.uniform(0.09, 0.18));
+  KeySequence s;
+  s.add(pose, 0.0);
+  for (double t = 1.0; t < duration_s + 1.0; t += 1.0) s.add(pose, 1.0);
   BodyFrames frames = playKeys(skeleton, s, {.hand_spread = 0.008, .angle_spread = 0.015, .heel_rise = 0.2}, random);
   frames.resize(static_cast<std::size_t>(duration_s * kMotionFps) + 1);
   return frames;

@@ -28,7 +28,7 @@ struct Strokes {
   struct Point {
     double right, up;  // [-1, 1] on the drawing plane
   };
-  HandTarget center{};   // of the plane, which stands across the body
+  HandTarget center{};               // of the plane, which stands across the body
   double width = 0.2, height = 0.2;  // [m] half the size of the plane
   double stroke_s = 0.5;
   double follow = 0.0;

@@ -139,31 +139,12 @@ void takeSteps(const BodyFrame& from, const BodyFrame& to, double share, bool ho
 
 }  // namespace
 
-KeyPose& KeySequence::at(double time_s) {
-  DMC_CHECK(keys_.empty() || time_s > keys_.back().time_s);
-  keys_.push_back(base_);
+KeyPose& KeySequence::add(const KeyPose& pose, double after_s) {
+  DMC_CHECK(keys_.empty() ? after_s >= 0 : after_s > 0);
+  const double time_s = end() + after_s;
+  keys_.push_back(pose);
   keys_.back().time_s = time_s;
   return keys_.back();
-}
-
-KeyPose& KeySequence::then(double after_s) {
-  DMC_CHECK(!keys_.empty() && after_s > 0);
-  KeyPose next = keys_.back();
-  next.time_s += after_s;
-  keys_.push_back(next);
-  return keys_.back();
-}
-
-KeyPose& KeySequence::base(double after_s) {
-  return at(end() + after_s);
-}
-
-KeyPose& KeySequence::add(const KeyPose& pose, double after_s) {
-  KeyPose& key = base(after_s);
-  const double time_s = key.time_s;
-  key = pose;
-  key.time_s = time_s;
-  return key;
 }
 
 KeyPose& KeySequence::last() {

@@ -37,23 +37,18 @@ struct Performance {
   bool hops = false;           // both feet may leave the floor at once; otherwise one steps after the other
 };
 
-// Keys in time order, each starting as a copy: of the base posture (at) or of the key before (then).
+// Keys in time order.
 class KeySequence {
  public:
-  explicit KeySequence(const KeyPose& base) : base_(base) {}
-  // The references stay valid until the next call.
-  KeyPose& at(double time_s);
-  // `after_s` later than the last key.
-  KeyPose& then(double after_s);
-  KeyPose& base(double after_s);
-  // A whole posture, `after_s` after the last key.
+  // Adds a posture `after_s` after the last key; its own time does not count. The first key may be at 0. The reference
+  // stays valid until the next call.
   KeyPose& add(const KeyPose& pose, double after_s);
+  // There must be one.
   KeyPose& last();
   [[nodiscard]] double end() const { return keys_.empty() ? 0.0 : keys_.back().time_s; }
   [[nodiscard]] const std::vector<KeyPose>& keys() const { return keys_; }
 
  private:
-  KeyPose base_;
   std::vector<KeyPose> keys_;
 };
 

@@ -1,6 +1,7 @@
 #include "libtracker/choreography/motion_json.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -34,6 +35,11 @@ class DamageFinder {
   std::vector<std::set<std::string>> keys_;
 };
 
+// Names that always mean the same: of numbers, of poses, of the groups of a posture, of a hand's place and of the gait.
+constexpr std::array<std::string_view, 18> kTaken = {
+    "pi",   "variant", "time",  "standing",  "last",       "before", "pelvis", "spine",        "head",
+    "left", "right",   "hands", "left_foot", "right_foot", "feet",   "swap",   "random_reach", "style"};
+
 bool isNameCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
@@ -52,20 +58,20 @@ ordered_json MotionJson::parse(std::string_view text, const std::string& name) {
 }
 
 void MotionJson::fail(const std::string& what, const std::string& advice) const {
-  throw Error(what, where_, advice);
+  throw Error(what, where(), advice);
 }
 
 MotionJson MotionJson::at(const std::string& key) const {
   if (!json_->is_object()) fail("must be an object");
   if (!json_->contains(key)) fail("\"" + key + "\" is missing");
-  return {json_->at(key), where_ + "/" + key};
+  return child(json_->at(key), key);
 }
 
 std::vector<std::pair<std::string, MotionJson>> MotionJson::members() const {
   if (!json_->is_object()) fail("must be an object");
   if (json_->empty()) fail("is empty", "leave it out or fill it");
   std::vector<std::pair<std::string, MotionJson>> all;
-  for (const auto& [key, value] : json_->items()) all.emplace_back(key, MotionJson(value, where_ + "/" + key));
+  for (const auto& [key, value] : json_->items()) all.emplace_back(key, child(value, key));
   return all;
 }
 
@@ -73,7 +79,7 @@ std::vector<MotionJson> MotionJson::elements() const {
   if (!json_->is_array()) fail("must be a list");
   if (json_->empty()) fail("is empty", "leave it out or fill it");
   std::vector<MotionJson> all;
-  for (std::size_t i = 0; i < json_->size(); ++i) all.emplace_back((*json_)[i], where_ + "/" + std::to_string(i));
+  for (std::size_t i = 0; i < json_->size(); ++i) all.push_back(child((*json_)[i], std::to_string(i)));
   return all;
 }
 
@@ -100,10 +106,19 @@ int MotionJson::integer(int low, int high) const {
   return static_cast<int>(value);
 }
 
+void MotionJson::checkNewName(const std::string& name) const {
+  const bool plain = std::all_of(name.begin(), name.end(), isNameCharacter);
+  if (name.empty() || !plain || (name[0] >= '0' && name[0] <= '9')) {
+    fail("\"" + name + "\" is no name", "it must be made of a-z, 0-9 and _");
+  }
+  if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
+    fail("\"" + name + "\" has a meaning already", "choose another name");
+  }
+}
+
 std::string MotionJson::newName() const {
   std::string name = text();
-  const bool plain = std::all_of(name.begin(), name.end(), isNameCharacter);
-  if (name.empty() || !plain || (name[0] >= '0' && name[0] <= '9')) fail("must be a name of a-z, 0-9 and _");
+  checkNewName(name);
   return name;
 }
 

@@ -13,10 +13,13 @@ class MotionJson {
   // Parses a file; Error if it is no JSON, no object or has a key twice.
   static nlohmann::ordered_json parse(std::string_view text, const std::string& name);
 
-  MotionJson(const nlohmann::ordered_json& json, std::string where) : json_(&json), where_(std::move(where)) {}
+  // `owner` is the file, with the motion or part where there is one.
+  MotionJson(const nlohmann::ordered_json& json, std::string owner, std::string pointer = {})
+      : json_(&json), owner_(std::move(owner)), pointer_(std::move(pointer)) {}
 
   [[nodiscard]] const nlohmann::ordered_json& json() const { return *json_; }
-  [[nodiscard]] const std::string& where() const { return where_; }
+  // "motions/exercise.json: motion squat: /steps/2/after"
+  [[nodiscard]] std::string where() const { return pointer_.empty() ? owner_ : owner_ + ": " + pointer_; }
   [[noreturn]] void fail(const std::string& what, const std::string& advice = {}) const;
 
   [[nodiscard]] bool has(std::string_view key) const { return json_->is_object() && json_->contains(key); }
@@ -30,12 +33,18 @@ class MotionJson {
 
   [[nodiscard]] std::string text() const;
   [[nodiscard]] int integer(int low, int high) const;
-  // A text that may name something in expressions: a-z, 0-9 and _.
+  // Error if `name` cannot name something new: other characters than a-z, 0-9 and _, or a meaning already.
+  void checkNewName(const std::string& name) const;
   [[nodiscard]] std::string newName() const;
 
  private:
+  [[nodiscard]] MotionJson child(const nlohmann::ordered_json& json, const std::string& key) const {
+    return {json, owner_, pointer_ + "/" + key};
+  }
+
   const nlohmann::ordered_json* json_;
-  std::string where_;
+  std::string owner_;
+  std::string pointer_;  // to the value in the owner, as in RFC 6901
 };
 
 }  // namespace depthmocap

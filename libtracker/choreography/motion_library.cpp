@@ -19,8 +19,8 @@ std::string_view embeddedSportsMotions();
 std::string_view embeddedEverydayMotions();
 std::string_view embeddedSittingMotions();
 std::string_view embeddedExerciseMotions();
-std::string_view embeddedDanceMotions();
 std::string_view embeddedStanceMotions();
+std::string_view embeddedDanceMotions();
 
 namespace {
 

@@ -23,7 +23,8 @@ class MotionPlayer {
 
   RawMotion perform(const MotionScript& motion) {
     runAll(motion.steps);
-    if (frames_.empty()) throw Error("has no frames", motion.where, "end it with \"play\", \"walk\" or a line of hands");
+    if (frames_.empty())
+      throw Error("has no frames", motion.where, "end it with \"play\", \"walk\" or a line of hands");
     for (const Flight& flight : flights_) fly(flight, frames_);
     return {std::move(frames_)};
   }
@@ -89,9 +90,11 @@ class MotionPlayer {
                                   .angle_spread = numbers.get("angle_spread", 1.3 * spread),
                                   .heel_rise = numbers.get("heel_rise", usual.heel_rise),
                                   .hops = numbers.get("hops") != 0.0};
-    const BodyFrames played = playKeys(skeleton_, scope_.keys(), performance, random_);
+    if (is_played_) fail("the keys are played already", "keep one \"play\"");
+    is_played_ = true;
+    BodyFrames played = playKeys(skeleton_, scope_.keys(), performance, random_);
     if (frames_.empty()) {
-      frames_ = played;
+      frames_ = std::move(played);
     } else {
       overlayUpperBody(played, frames_);
     }
@@ -118,7 +121,7 @@ class MotionPlayer {
     orbit.follow = n.get("follow");
     checkSeconds(std::min(orbit.round_s, orbit.rounds * orbit.round_s), "round_s");
     checkSeconds(orbit.rounds * orbit.round_s, "rounds");
-    frames_ = followOrbit(skeleton_, orbit, random_);
+    begin(followOrbit(skeleton_, orbit, random_));
   }
   void run(const StrokesStep& step) {
     Strokes strokes{.center = scope_.hand(step.center)};
@@ -132,7 +135,7 @@ class MotionPlayer {
       strokes.points.push_back({x, scope_.number(up)});
     }
     checkSeconds(strokes.stroke_s * static_cast<double>(strokes.points.size()), "stroke_s");
-    frames_ = followStrokes(skeleton_, strokes, random_);
+    begin(followStrokes(skeleton_, strokes, random_));
   }
 
   void run(const StyleStep& step) { changeStyle(scope_.numbers(step.numbers), scope_.style()); }
@@ -144,7 +147,11 @@ class MotionPlayer {
     }
     if (scope_.style().cycle_s <= 0) fail("\"cycle_s\" of the style is not above 0");
     if (scope_.style().duty <= 0 || scope_.style().duty >= 1) fail("\"duty\" of the style is not between 0 and 1");
-    frames_ = walkAlongNamed(step.path, numbers, scope_.style(), random_.uniform());
+    begin(walkAlongNamed(step.path, numbers, scope_.style(), random_.uniform()));
+  }
+  void begin(BodyFrames frames) {
+    if (!frames_.empty()) fail("the motion has frames already", "keep one \"walk\" or line of hands, before \"play\"");
+    frames_ = std::move(frames);
   }
 
   void checkSeconds(double seconds, const std::string& name) const {
@@ -167,6 +174,7 @@ class MotionPlayer {
   std::vector<Flight> flights_;
   const std::string* where_ = nullptr;  // of the step that runs
   int step_count_ = 0;
+  bool is_played_ = false;
 };
 
 }  // namespace

@@ -104,6 +104,7 @@ struct Step {
 };
 
 using Places = std::map<std::string, HandTarget, std::less<>>;
+using Parts = std::map<std::string, std::shared_ptr<const Steps>>;
 
 struct MotionScript {
   std::string name;
@@ -113,8 +114,8 @@ struct MotionScript {
 };
 
 struct MotionFile {
-  Places places;                                               // with those of the shared file
-  std::map<std::string, std::shared_ptr<const Steps>> parts;  // likewise
+  Places places;  // with those of the shared file
+  Parts parts;    // likewise
   std::vector<MotionScript> motions;
 };
 

@@ -53,9 +53,7 @@ std::size_t chosenIndex(double value, std::size_t size, const std::string& where
 }
 
 PerformanceScope::PerformanceScope(const Places& places, int variant, Random& random)
-    : expressions_{random, [this](std::string_view name) { return find(name); }},
-      hands_(places),
-      keys_(KeyPose{}) {
+    : expressions_{random, [this](std::string_view name) { return find(name); }}, hands_(places) {
   numbers_["variant"] = variant;
   poses_["standing"] = poses_["base"] = KeyPose{};
 }

@@ -13,7 +13,8 @@ std::size_t chosenIndex(double value, std::size_t size, const std::string& where
 
 // What the names in a motion file mean while it is performed: numbers, hands, poses, the keys so far and the gait.
 // A name with dots is a number of a posture: "pelvis.y" of the one that is being made, "seat.pelvis.y" of a pose;
-// "last" and "before" are the last key and the one before it. "variant" is the variant, "time" the time of the last key.
+// "last" and "before" are the last key and the one before it. "variant" is the variant, "time" the time of the last
+// key.
 class PerformanceScope {
  public:
   PerformanceScope(const Places& places, int variant, Random& random);

@@ -23,7 +23,8 @@ std::optional<std::size_t> PostureGroup::find(std::string_view field) const {
 
 const std::vector<PostureGroup>& postureGroups() {
   static const std::vector<std::string_view> hand = {"out", "up", "forward", "elbow"};
-  static const std::vector<std::string_view> foot = {"out", "forward", "lift", "pitch", "toe_out", "ground", "knee_out"};
+  static const std::vector<std::string_view> foot = {"out",     "forward", "lift",    "pitch",
+                                                     "toe_out", "ground",  "knee_out"};
   static const std::vector<PostureGroup> groups = {
       {"pelvis",
        {"x", "z", "y", "heading", "lean", "tilt", "held"},
@@ -33,10 +34,14 @@ const std::vector<PostureGroup>& postureGroups() {
        }},
       {"spine",
        {"bend", "twist", "side"},
-       [](KeyPose& k) { return std::vector<double*>{&k.spine.bend, &k.spine.twist, &k.spine.side}; }},
+       [](KeyPose& k) {
+         return std::vector<double*>{&k.spine.bend, &k.spine.twist, &k.spine.side};
+       }},
       {"head",
        {"nod", "side", "turn"},
-       [](KeyPose& k) { return std::vector<double*>{&k.head.nod, &k.head.side, &k.head.turn}; }},
+       [](KeyPose& k) {
+         return std::vector<double*>{&k.head.nod, &k.head.side, &k.head.turn};
+       }},
       {"left", hand, [](KeyPose& k) { return numbersOfHand(k.left); }},
       {"right", hand, [](KeyPose& k) { return numbersOfHand(k.right); }},
       {"left_foot", foot, [](KeyPose& k) { return numbersOfFoot(k.left_foot); }},

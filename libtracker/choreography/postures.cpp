@@ -31,24 +31,6 @@ KeyPose standing(double half_width) {
   return key;
 }
 
-KeyPose boxingGuard() {
-  KeyPose key;
-  key.left_foot = {.out = 0.12, .forward = 0.20, .toe_out = -0.35};
-  key.right_foot = {.out = 0.17, .forward = -0.20, .pitch = 0.15, .toe_out = 0.75};
-  key.pelvis.heading = -0.55;
-  key.pelvis.y = -0.06;
-  key.pelvis.lean = 0.06;
-  key.spine = {.bend = 0.15, .twist = 0.05};
-  key.head = {.nod = 0.10, .turn = 0.45};
-  key.left = {-0.04, 0.02, 0.30, -0.1};
-  key.right = {-0.07, 0.03, 0.20, -0.1};
-  return key;
-}
-
-void setHands(KeyPose& key, const HandTarget& hand) {
-  key.left = key.right = hand;
-}
-
 HandTarget randomReach(Random& random) {
   for (;;) {
     const double up = random.uniform(-1.0, 1.0);

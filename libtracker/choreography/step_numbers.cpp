@@ -56,8 +56,8 @@ const NumberNames& flightNumbers() {
 }
 
 const NumberNames& orbitNumbers() {
-  static const NumberNames names = {
-      {"out", "up", "forward", "round_s", "rounds"}, {"up_frequency", "up_phase", "both", "apart", "follow"}};
+  static const NumberNames names = {{"out", "up", "forward", "round_s", "rounds"},
+                                    {"up_frequency", "up_phase", "both", "apart", "follow"}};
   return names;
 }
 

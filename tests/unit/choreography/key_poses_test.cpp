@@ -18,10 +18,10 @@ const Skeleton& skeleton() {
 }
 
 TEST(KeyPoses, PassesThroughItsKeys) {
-  KeySequence s(standing());
-  s.at(0.0);
-  s.base(1.0).spine.twist = 0.5;
-  s.base(1.0).pelvis.y = -0.2;
+  KeySequence s;
+  s.add(standing(), 0.0);
+  s.add(standing(), 1.0).spine.twist = 0.5;
+  s.add(standing(), 1.0).pelvis.y = -0.2;
   Random random(1);
   const BodyFrames frames = playKeys(skeleton(), s, kExact, random);
   ASSERT_EQ(frames.size(), 61U);
@@ -34,9 +34,9 @@ TEST(KeyPoses, PassesThroughItsKeys) {
 }
 
 TEST(KeyPoses, TempoShortensTheMotion) {
-  KeySequence s(standing());
-  s.at(0.0);
-  s.then(2.0);
+  KeySequence s;
+  s.add(standing(), 0.0);
+  s.add(standing(), 2.0);
   Performance fast = kExact;
   fast.tempo = 2.0;
   Random random(1);
@@ -44,9 +44,9 @@ TEST(KeyPoses, TempoShortensTheMotion) {
 }
 
 TEST(KeyPoses, AFootThatMovesIsLifted) {
-  KeySequence s(standing());
-  s.at(0.0);
-  s.base(1.0).left_foot.forward = 0.4;
+  KeySequence s;
+  s.add(standing(), 0.0);
+  s.add(standing(), 1.0).left_foot.forward = 0.4;
   Random random(1);
   const BodyFrames frames = playKeys(skeleton(), s, kExact, random);
   EXPECT_GT(frames[15].left_foot.lift, 0.05);
@@ -56,9 +56,9 @@ TEST(KeyPoses, AFootThatMovesIsLifted) {
 }
 
 TEST(KeyPoses, FeetStepOneAfterTheOtherUnlessTheyHop) {
-  KeySequence s(standing());
-  s.at(0.0);
-  KeyPose& key = s.base(1.0);
+  KeySequence s;
+  s.add(standing(), 0.0);
+  KeyPose& key = s.add(standing(), 1.0);
   key.left_foot.forward = key.right_foot.forward = 0.3;
   Random random(1);
   Performance hop = kExact;
@@ -72,10 +72,11 @@ TEST(KeyPoses, FeetStepOneAfterTheOtherUnlessTheyHop) {
 }
 
 TEST(KeyPoses, RefusesKeysOutOfOrderAndSequencesWithoutMotion) {
-  KeySequence s(standing());
-  EXPECT_THROW(s.then(0.5), std::logic_error);
-  s.at(1.0);
-  EXPECT_THROW(s.at(0.5), std::logic_error);
+  KeySequence s;
+  EXPECT_THROW(s.last(), std::logic_error);
+  EXPECT_THROW(s.add(standing(), -0.5), std::logic_error);
+  s.add(standing(), 1.0);
+  EXPECT_THROW(s.add(standing(), 0.0), std::logic_error);
   Random random(1);
   EXPECT_THROW(playKeys(skeleton(), s, kExact, random), std::logic_error);
 }
