@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "depthmocap/error.h"
 #include "libtracker/choreography/body_solver.h"
+#include "libtracker/choreography/motion_library.h"
+#include "libtracker/choreography/motion_reader.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 #include "libtracker/skeleton/joint_limits.h"
 
@@ -39,6 +44,28 @@ TEST(ProceduralMotions, NamesAreUniqueAndMatchTheClips) {
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], clips()[i].name);
 }
 
+TEST(ProceduralMotions, EveryMotionFileIsBuiltIn) {
+  std::set<std::string> built_in;
+  for (const MotionFile& file : motionLibrary()) {
+    for (const MotionScript& motion : file.motions) built_in.insert(motion.name);
+  }
+  const std::filesystem::path folder(DEPTHMOCAP_SOURCE_DIR "/libtracker/choreography/motions");
+  const auto text = [](const std::filesystem::path& path) {
+    std::ifstream stream(path);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  const MotionFile shared = readMotionFile(text(folder / "shared.json"), "shared.json");
+  std::size_t motions = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename() == "shared.json") continue;
+    for (const MotionScript& motion : readMotionFile(text(entry.path()), entry.path(), shared).motions) {
+      EXPECT_TRUE(built_in.contains(motion.name)) << entry.path() << " " << motion.name;
+      ++motions;
+    }
+  }
+  EXPECT_EQ(motions, built_in.size());
+}
+
 TEST(ProceduralMotions, UnknownNameSuggestsANearOne) {
   try {
     proceduralMotion("walk_fats", 1);
@@ -53,6 +80,50 @@ TEST(ProceduralMotions, OneMotionIsTheSameAloneAndAmongAll) {
     const MotionClip alone = proceduralMotion(clips()[i].name, 1);
     ASSERT_EQ(alone.poses.size(), clips()[i].poses.size());
     for (std::size_t t = 0; t < alone.poses.size(); ++t) ASSERT_EQ(alone.poses[t], clips()[i].poses[t]);
+  }
+}
+
+// A number that any change of a pose, of the order of draws or of the tempo changes.
+double digest(const MotionClip& clip) {
+  double sum = 0;
+  for (std::size_t t = 0; t < clip.poses.size(); ++t) {
+    const double late = static_cast<double>(t + 1) / static_cast<double>(clip.poses.size());
+    for (int i = 0; i < kDofCount; ++i) sum += (i + 1) * late * clip.poses[t][i];
+  }
+  return sum;
+}
+
+// Every kind of step and several motions of each file, as they were when motions were C++ (0.1.0). Another choreography
+// changes the pose database that ships: a change here is deliberate.
+TEST(ProceduralMotions, ASampleIsPerformedAsEver) {
+  struct Sample {
+    std::string name;
+    std::size_t frames;
+    double digest;
+  };
+  const Sample samples[] = {
+      {"walk_2", 121, 1690.340438428},
+      {"run_3", 76, 2295.365493697},
+      {"walk_to_and_fro", 217, 3795.127829336},
+      {"jump_turn", 173, 4795.287296317},
+      {"kick_roundhouse_3", 117, 2117.057312819},
+      {"clap_3", 191, -2260.478455445},
+      {"draw_zigzag", 188, 1660.144471521},
+      {"free_lines_2", 244, -520.993705257},
+      {"tennis_serve_2", 186, 672.201955681},
+      {"climb_ladder", 152, -1994.387496761},
+      {"stairs_down", 136, 973.426520203},
+      {"sit_and_talk", 167, 1062.547342986},
+      {"balance_one_leg_3", 234, -890.745065748},
+      {"idle_2", 192, 1469.747353940},
+      {"turn_around_2", 140, -24.448301711},
+      {"dance_freestyle_4", 174, -725.532806534},
+      {"dance_walk", 196, -1622.270716462},
+  };
+  for (const Sample& sample : samples) {
+    const MotionClip clip = proceduralMotion(sample.name, 1);
+    EXPECT_EQ(clip.poses.size(), sample.frames) << sample.name;
+    EXPECT_NEAR(digest(clip), sample.digest, 1e-6) << sample.name;
   }
 }
 
