@@ -1,11 +1,17 @@
 #include "libtracker/choreography/motion_player.h"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "depthmocap/error.h"
 #include "libtracker/choreography/motion_reader.h"
+#include "libtracker/choreography/step_numbers.h"
+#include "libtracker/choreography/walk_paths.h"
 
 namespace depthmocap {
 namespace {
@@ -154,6 +160,48 @@ TEST(MotionPlayer, WhatCannotBePerformedIsAnErrorThatNamesTheStep) {
     const std::string error = errorOf(steps);
     EXPECT_EQ(error.find("a.json: motion nod: "), 0U) << steps << "\n" << error;
     EXPECT_NE(error.find(expected), std::string::npos) << steps << "\n" << error;
+  }
+}
+
+std::string referencePage() {
+  std::ifstream stream(DEPTHMOCAP_SOURCE_DIR "/docs/reference/motions.md");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The indented lines of the page: the example.
+std::string exampleOf(const std::string& page) {
+  std::istringstream lines(page);
+  std::string example;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("    ")) example += line + "\n";
+  }
+  return example;
+}
+
+TEST(MotionFormat, TheExampleOfTheReferencePagePlays) {
+  const MotionFile file = readMotionFile(exampleOf(referencePage()), "motions.md");
+  ASSERT_EQ(file.motions.size(), 1U);
+  for (int variant = 0; variant < file.motions[0].variants; ++variant) {
+    Random random(1);
+    EXPECT_GT(playMotion(file.motions[0], file.places, variant, skeleton(), random).frames.size(), 60U);
+  }
+}
+
+TEST(MotionFormat, TheReferencePageHasEveryName) {
+  const std::string page = referencePage();
+  const auto expectNames = [&](const std::vector<std::string>& names) {
+    for (const std::string& name : names) EXPECT_NE(page.find("`" + name + "`"), std::string::npos) << name;
+  };
+  for (const PostureGroup& group : postureGroups()) {
+    expectNames({std::string(group.name)});
+    expectNames({group.fields.begin(), group.fields.end()});
+  }
+  std::vector<const NumberNames*> steps = {&playNumbers(), &flightNumbers(), &orbitNumbers(), &strokesNumbers()};
+  expectNames(walkPathNames());
+  for (const std::string& path : walkPathNames()) steps.push_back(walkNumbers(path));
+  for (const NumberNames* numbers : steps) {
+    expectNames(numbers->required);
+    expectNames(numbers->optional);
   }
 }
 
