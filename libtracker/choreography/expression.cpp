@@ -54,7 +54,7 @@ constexpr std::array kFunctions = {
     Function{"air_time", 1, 1, [](Random&, Arguments a) { return airTime(a[0]); }},
 };
 
-// Two operands, the tighter binding ones later. Of two that start alike the longer comes first.
+// Of two operands; a higher level binds tighter.
 struct Operator {
   std::string_view sign;
   int level;
@@ -75,6 +75,7 @@ constexpr std::array kOperators = {
 
 std::vector<std::string> functionNames() {
   std::vector<std::string> names;
+  names.reserve(kFunctions.size());
   for (const Function& function : kFunctions) names.emplace_back(function.name);
   return names;
 }

@@ -46,6 +46,7 @@ constexpr std::array kFiles = {
 std::vector<MotionFile> readLibrary() {
   const MotionFile shared = readMotionFile(embeddedSharedMotions(), "motions/shared.json");
   std::vector<MotionFile> files;
+  files.reserve(kFiles.size());
   for (const EmbeddedFile& file : kFiles) files.push_back(readMotionFile(file.text(), std::string(file.name), shared));
   return files;
 }

@@ -13,8 +13,8 @@
 namespace depthmocap {
 namespace {
 
-constexpr double kMaxSeconds = 120.0;  // [s] of a motion; by hand, ten times the longest of ours
-constexpr int kMaxSteps = 10000;       // of a performance; by hand, a hundred times the most of ours
+constexpr double kMaxSeconds = 120.0;  // [s] of a motion; by hand, far above the longest of ours (13 s)
+constexpr int kMaxSteps = 10000;       // of a performance; by hand, far above the most of ours (some hundreds)
 
 class MotionPlayer {
  public:
@@ -53,9 +53,10 @@ class MotionPlayer {
   void run(const KeyStep& step) {
     KeySequence& keys = scope_.keys();
     const double after_s = scope_.number(step.after_s);
-    const bool first = keys.keys().empty();
-    if (after_s < 0 || (after_s == 0 && !first)) fail("\"after\" is not above 0", "keys stand in the order of time");
-    if (keys.end() + after_s > kMaxSeconds) fail("is a motion that does not end", "let it repeat less");
+    const double time_s = keys.end() + after_s;
+    const bool in_order = keys.keys().empty() ? time_s >= 0 : time_s > keys.end();
+    if (!in_order) fail("\"after\" is not above 0", "keys stand in the order of time");
+    if (time_s > kMaxSeconds) fail("is a motion that does not end", "let it repeat less");
     scope_.change(step.change, keys.add(pose(step.from), after_s));
   }
 

@@ -30,8 +30,9 @@ void readPlaces(const MotionJson& object, MotionFile& file) {
 }
 
 void readParts(const MotionJson& object, const std::string& file_name, MotionFile& file) {
+  const std::string owner = file_name + ": part ";
   for (const auto& [name, value] : object.members()) {
-    const MotionJson part(value.json(), file_name + ": part " + name);
+    const MotionJson part(value.json(), owner + name);
     part.checkKeys({"steps"});
     auto steps = std::make_shared<const Steps>(readSteps(part.at("steps"), file.parts));
     if (!file.parts.emplace(name, std::move(steps)).second) part.fail("is a part of the shared file already");

@@ -38,6 +38,7 @@ std::vector<double> numbersOf(const HandTarget& hand) {
 
 std::vector<std::pair<std::size_t, double>> allOf(const std::vector<double>& numbers) {
   std::vector<std::pair<std::size_t, double>> changes;
+  changes.reserve(numbers.size());
   for (const double number : numbers) changes.emplace_back(changes.size(), number);
   return changes;
 }

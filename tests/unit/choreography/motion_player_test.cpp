@@ -129,6 +129,7 @@ TEST(MotionPlayer, WhatCannotBePerformedIsAnErrorThatNamesTheStep) {
   const std::pair<std::string, std::string> damages[] = {
       {R"({"after": 0}, {"after": 0})", R"(/steps/1: "after" is not above 0)"},
       {R"({"after": 0}, {"after": "-0.5"})", R"(/steps/1: "after" is not above 0)"},
+      {R"({"after": 1}, {"after": 1e-20})", R"(/steps/1: "after" is not above 0)"},
       {R"({"after": -1})", R"(/steps/0: "after" is not above 0)"},
       {R"({"after": 1e6})", "/steps/0: is a motion that does not end"},
       {R"({"after": "wait"})", R"(/steps/0/after "wait": "wait" is not known here)"},
