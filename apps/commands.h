@@ -13,6 +13,7 @@ void addCamerasCommand(CLI::App& app);
 void addConfigTableCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addForestCommand(CLI::App& app);
+void addRoomsCommand(CLI::App& app);
 void addIkCommand(CLI::App& app);
 void addLiveCommand(CLI::App& app);
 void addPosedbCommand(CLI::App& app);

@@ -26,6 +26,7 @@ void addCommands(CLI::App& app) {
   addEvaluateCommand(app);
 #ifdef DEPTHMOCAP_LEARNING
   addForestCommand(app);
+  addRoomsCommand(app);
 #endif
   addPosedbCommand(app);
   addIkCommand(app);

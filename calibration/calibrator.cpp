@@ -16,6 +16,7 @@
 #include "libtracker/actor/make_actor.h"
 #include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
+#include "libtracker/classify/room_classifier.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/config_fields.h"
 #include "libtracker/core/parallel.h"
@@ -115,6 +116,7 @@ struct Calibrator::Impl {
   }
 
   TPoseVerdict judge(const DepthFrame& frame);
+  void segment(const DepthImage& depth, Segmenter& by, Segmentation& out);
   bool secondPerson(const DepthFrame& frame);
   void classifyScaled(const DepthImage& depth, double stature_m);
   MarkerSet findMarkers(double stature_m);
@@ -133,6 +135,8 @@ struct Calibrator::Impl {
   const CalibratorConfig config;
   const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
   ClassifyConfig classify_config;
+  RoomClassifier::Memory room_memory;
+  RoomMap map;
   Segmenter segmenter;
   MarkerFinder finder;
 
@@ -150,7 +154,7 @@ struct Calibrator::Impl {
 };
 
 TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
-  segmenter.segment(frame.depth, camera, nullptr, segmentation);
+  segment(frame.depth, segmenter, segmentation);
   const std::vector<Eigen::Vector3f> points = actorPoints(frame.depth, segmentation.actor().mask, camera);
   if (points.size() < kFewestPixels) return {TPoseFault::Nobody, "nobody is in view", 0};
   if (config.any_pose) {
@@ -182,6 +186,13 @@ TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
   return verdict;
 }
 
+void Calibrator::Impl::segment(const DepthImage& depth, Segmenter& by, Segmentation& out) {
+  const SegmentConfig range;
+  models->room->classify(depth, camera, range.min_depth_m, range.max_depth_m, config.threads, room_memory, map);
+  by.segment(
+      depth, camera, [this]() -> const RoomMap& { return map; }, {std::nullopt}, out);
+}
+
 // A person is left when the actor is taken out of the picture.
 bool Calibrator::Impl::secondPerson(const DepthFrame& frame) {
   DepthImage rest = frame.depth;
@@ -189,7 +200,7 @@ bool Calibrator::Impl::secondPerson(const DepthFrame& frame) {
     if (segmentation.actor().mask.data[i] != 0) rest.data[i] = 0.0F;
   }
   Segmenter other{SegmentConfig{}};
-  other.segment(rest, camera, nullptr, rival);
+  segment(rest, other, rival);
   if (rival.actor().pixel_count < kRivalShare * segmentation.actor().pixel_count) return false;
   float top = 1e9F;
   float bottom = -1e9F;
@@ -335,6 +346,7 @@ std::shared_ptr<const CalibratorModels> loadCalibratorModels(const Models& track
   const auto models = std::make_shared<CalibratorModels>();
   models->tpose = std::make_shared<const ForestClassifier>(loadForest(shippedFile("tpose.forest")));
   models->general = tracking.classifier;
+  models->room = tracking.room;
   models->space = loadShapeSpace(shape_space.empty() ? shippedFile("shape_space.json") : shape_space);
   return models;
 }

@@ -12,6 +12,7 @@
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/models.h"
 #include "libtracker/classify/part_classifier.h"
+#include "libtracker/classify/room_classifier.h"
 
 namespace depthmocap {
 
@@ -29,6 +30,7 @@ struct CalibratorConfig {
 struct CalibratorModels {
   std::shared_ptr<const PartClassifier> tpose;    // knows the parts of a T-pose
   std::shared_ptr<const PartClassifier> general;  // the tracker's: markers are calibrated as the tracker will see them
+  std::shared_ptr<const RoomClassifier> room;     // the tracker's
   ShapeSpace space;
 };
 

@@ -167,10 +167,14 @@ void FrontView::draw(const PreviewFrame& frame, const cv::Mat& shading, cv::Mat&
     }
     drawMarkers(markers, panel);
   }
-  if (frame.joints == nullptr || frame.joints->state == TrackState::Lost) return;
-  JointPixels joints;
-  for (int k = 0; k < kJointCount; ++k) joints[static_cast<std::size_t>(k)] = toPanel(frame.joints->p_camera.col(k));
-  drawSkeleton(joints, *frame.joints, panel);
+  const auto drawPerson = [&](const JointsRow& row) {
+    if (row.state == TrackState::Lost) return;
+    JointPixels joints;
+    for (int k = 0; k < kJointCount; ++k) joints[static_cast<std::size_t>(k)] = toPanel(row.p_camera.col(k));
+    drawSkeleton(joints, row, panel);
+  };
+  for (const JointsRow& row : frame.others) drawPerson(row);
+  if (frame.joints != nullptr) drawPerson(*frame.joints);
 }
 
 }  // namespace depthmocap

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "depthmocap/camera_model.h"
@@ -17,6 +18,7 @@ struct PreviewFrame {
   const MarkerSet* markers = nullptr;  // camera frame [m]; null: none
   const JointsRow* joints = nullptr;   // camera frame [m], with frame number, time and state; null: nothing is known
   std::string caption = {};            // one more short text for the bottom line
+  std::span<const JointsRow> others = {};  // of several people all but the first
 };
 
 inline constexpr int kPreviewWidth = 1280;  // [px] of every preview picture

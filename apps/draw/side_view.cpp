@@ -150,13 +150,17 @@ void SideView::draw(const PreviewFrame& frame, const cv::Mat& shading, cv::Mat& 
     }
     drawMarkers(markers, panel);
   }
-  if (!hasSkeleton(frame)) return;
-  JointPixels joints;
-  for (int k = 0; k < kJointCount; ++k) {
-    const Projected p = project(frame.joints->p_camera.col(k));
-    if (p.depth > 0) joints[static_cast<std::size_t>(k)] = p.pixel;
-  }
-  drawSkeleton(joints, *frame.joints, panel);
+  const auto drawPerson = [&](const JointsRow& row) {
+    if (row.state == TrackState::Lost) return;
+    JointPixels joints;
+    for (int k = 0; k < kJointCount; ++k) {
+      const Projected p = project(row.p_camera.col(k));
+      if (p.depth > 0) joints[static_cast<std::size_t>(k)] = p.pixel;
+    }
+    drawSkeleton(joints, row, panel);
+  };
+  for (const JointsRow& row : frame.others) drawPerson(row);
+  if (frame.joints != nullptr) drawPerson(*frame.joints);
 }
 
 }  // namespace depthmocap

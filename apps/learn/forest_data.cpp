@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "forest/train/room_image_source.h"
 #include "libtracker/choreography/procedural_motions.h"
 #include "libtracker/posedb/pose_database.h"
 
@@ -27,17 +28,50 @@ PosePool makePosePool(const DataOptions& data, PoseUse use) {
 
 // People as they usually stand before a camera: captured poses as they are, whole in view, at 1.5 to 4 m, the camera
 // about level; every yaw is equally likely.
-void askForPlainViews(RenderedImageOptions& options) {
-  options.variation = {.mix_share = 0, .hang_share = 0, .jitter = 0};
-  options.view.facing_share = 0;
-  options.view.min_distance_m = 1.5;
-  options.view.max_distance_m = 4.0;
-  options.view.min_camera_height_m = 0.8;
-  options.view.max_camera_height_m = 1.6;
-  options.view.max_tilt = 0.2;
-  options.view.cut_share = 0;
-  options.view.carried_share = 0;
-  options.view.obstacle_share = 0;
+void askForPlainViews(TrainingViewConfig& view) {
+  view.facing_share = 0;
+  view.min_distance_m = 1.5;
+  view.max_distance_m = 4.0;
+  view.min_camera_height_m = 0.8;
+  view.max_camera_height_m = 1.6;
+  view.max_tilt = 0.2;
+  view.cut_share = 0;
+  view.carried_share = 0;
+  view.obstacle_share = 0;
+}
+
+using ImageMaker = std::function<std::unique_ptr<TrainingImageSource>(std::size_t count)>;
+
+TrainingViewConfig viewOf(const DataOptions& data) {
+  TrainingViewConfig view;
+  view.facing_share = 0.3;  // half of all views are then within 60 degrees of the camera
+  if (data.plain) askForPlainViews(view);
+  if (data.carried_share) view.carried_share = *data.carried_share;
+  if (data.obstacle_share) view.obstacle_share = *data.obstacle_share;
+  return view;
+}
+
+ImageMaker personImages(const DataOptions& data, std::uint64_t seed, const ImageSet& set) {
+  RenderedImageOptions options;
+  options.seed = seed;
+  options.t_poses = data.t_pose;
+  options.view = set.view;
+  if (data.plain) options.variation = {.mix_share = 0, .hang_share = 0, .jitter = 0};
+  options.variation.posture_share = data.posture_share;
+  return [options, bodies = set.bodies, poses = set.poses](std::size_t count) mutable {
+    options.count = count;
+    return std::make_unique<RenderedImageSource>(bodies, poses, options);
+  };
+}
+
+ImageMaker roomImages(const DataOptions& data, std::uint64_t seed, const ImageSet& set) {
+  RoomImageOptions options;
+  options.seed = seed;
+  options.variation.posture_share = data.posture_share;
+  return [options, bodies = set.bodies, poses = set.poses](std::size_t count) mutable {
+    options.count = count;
+    return std::make_unique<RoomImageSource>(bodies, poses, options);
+  };
 }
 
 }  // namespace
@@ -79,16 +113,9 @@ ImageSet makeImageSet(const DataOptions& data, PoseUse use, std::size_t images) 
   const BodyPoolOptions bodies{train ? data.bodies : std::max(1, data.bodies / 5), data.makehuman, seed};
   set.bodies = std::make_shared<const std::vector<BodySurface>>(makeBodyPool(bodies, data.threads));
   set.poses = std::make_shared<const PosePool>(makePosePool(data, use));
-  RenderedImageOptions options;
-  options.count = images;
-  options.seed = seed;
-  options.t_poses = data.t_pose;
-  options.view.facing_share = 0.3;  // half of all views are then within 60 degrees of the camera
-  if (data.plain) askForPlainViews(options);
-  if (data.carried_share) options.view.carried_share = *data.carried_share;
-  if (data.obstacle_share) options.view.obstacle_share = *data.obstacle_share;
-  options.variation.posture_share = data.posture_share;
-  set.source = std::make_unique<RenderedImageSource>(set.bodies, set.poses, options);
+  set.view = viewOf(data);
+  set.first = data.rooms ? roomImages(data, seed, set) : personImages(data, seed, set);
+  set.source = set.first(images);
   return set;
 }
 

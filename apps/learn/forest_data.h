@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct DataOptions {
   bool procedural = false;
   std::string makehuman;
   bool t_pose = false;
+  bool rooms = false;
   bool plain = false;
   double posture_share = 0;
   std::optional<double> carried_share;   // none: TrainingViewConfig's, or 0 with plain
@@ -37,7 +39,10 @@ void addDataOptions(CLI::App& command, DataOptions& data);
 struct ImageSet {
   std::shared_ptr<const std::vector<BodySurface>> bodies;
   std::shared_ptr<const PosePool> poses;
-  std::unique_ptr<RenderedImageSource> source;
+  std::unique_ptr<TrainingImageSource> source;
+  TrainingViewConfig view;  // from where people are looked at, without rooms
+  // The first `count` of them.
+  std::function<std::unique_ptr<TrainingImageSource>(std::size_t count)> first;
 };
 
 // `use` decides about poses, bodies and views: what measures a forest never meets what taught it.

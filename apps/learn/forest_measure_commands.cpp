@@ -18,6 +18,7 @@
 #include "forest/train/marker_statistics.h"
 #include "forest/train/recorded_image_source.h"
 #include "forest/train/training_report.h"
+#include "forest/train/write_picture.h"
 #include "libtracker/classify/classify.h"
 #include "libtracker/classify/forest_file.h"
 #include "libtracker/classify/label_image.h"
@@ -49,15 +50,7 @@ void drawPictures(const Forest& forest, TrainingImageSource& source, const fs::p
     classify(forest, image.depth, mask, image.focal_px, {}, classified);
     PartImage found;
     labelImage(classified, mask, found);
-    // Truth to the left, what was found to the right.
-    PartImage both(2 * found.width, found.height, 0);
-    for (int y = 0; y < found.height; ++y) {
-      for (int x = 0; x < found.width; ++x) {
-        both.at(x, y) = image.labels.at(x, y);
-        both.at(found.width + x, y) = found.at(x, y);
-      }
-    }
-    writeColouredLabels(both, folder / fmt::format("{:06d}.png", i));
+    writeComparison(image, found, folder / fmt::format("{:06d}.png", i));
   }
 }
 
@@ -181,7 +174,7 @@ void addForestEvaluate(CLI::App& forest) {
       ->check(CLI::ExistingDirectory);
   command->add_option("--step", c->step, "Take every n-th frame of the recording")->capture_default_str();
   command->add_option("--images", c->images, "Rendered images to measure on")->capture_default_str();
-  command->add_option("--pictures", c->pictures, "Folder for pictures: true parts left, found parts right");
+  command->add_option("--pictures", c->pictures, "Folder for pictures: depth, true labels, found labels");
   addDataOptions(*command, c->data);
   command->callback([c] { runEvaluate(*c); });
 }
@@ -207,7 +200,7 @@ void addForestMarkers(CLI::App& forest) {
     config.images = c->images;
     config.seed = c->data.seed;
     config.threads = c->data.threads;
-    config.view = set.source->options().view;
+    config.view = set.view;
     printMarkers(measureMarkers(*set.bodies, set.poses->poses, &forest_file, config));
   });
 }

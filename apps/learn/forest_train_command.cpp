@@ -96,18 +96,16 @@ void measureCurves(const TrainCommand& c, const std::vector<TrainedTree>& traine
 void measureImageCurve(const TrainCommand& c, ImageSet& images, TrainingImageSource& validation,
                        TrainingReport& report) {
   for (const std::size_t part : {64U, 16U, 4U}) {
-    RenderedImageOptions fewer = images.source->options();
-    fewer.count = std::max<std::size_t>(1, c.images / part);
-    RenderedImageSource source(images.bodies, images.poses, fewer);
+    const std::unique_ptr<TrainingImageSource> source = images.first(std::max<std::size_t>(1, c.images / part));
     ForestTrainingOptions options = c.training;
     options.trees = 1;
     options.checkpoint.clear();
     options.resume = false;
     SingleCommunicator alone;
-    const auto trained = trainForest(source, alone, options, [](const std::string&, double) {});
+    const auto trained = trainForest(*source, alone, options, [](const std::string&, double) {});
     const Forest forest = finishedForest(trained, c.finish, "");
     const auto result = measureAccuracy({&forest, 1}, validation, 2, c.data.threads, [](double) {});
-    report.by_images.push_back({static_cast<double>(fewer.count), result[0].all.meanAccuracy()});
+    report.by_images.push_back({static_cast<double>(source->count()), result[0].all.meanAccuracy()});
   }
   report.by_images.push_back({static_cast<double>(c.images), report.by_trees[0].mean_accuracy});
 }

@@ -1,5 +1,7 @@
 #include "apps/track/animation_files.h"
 
+#include <fmt/format.h>
+
 #include "depthmocap/error.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/motion/bvh_writer.h"
@@ -19,30 +21,49 @@ AnimationFiles::AnimationFiles(const TrackOptions& options, double fps)
       bvh_scale_(options.bvh_unit == "cm" ? kCentimetres : 1.0),
       fps_(fps) {}
 
-void AnimationFiles::add(const TrackedFrame& tracked) {
+void AnimationFiles::add(std::span<const TrackedFrame* const> people) {
   if (bvh_.empty() && gltf_.empty()) return;
-  if (tracked.state == TrackState::Lost) {
-    motion_.addLost(tracked.time_s);
-  } else {
-    motion_.add(tracked.time_s, tracked.q, tracked.lengths);
+  people_.resize(people.size());
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const TrackedFrame& tracked = *people[i];
+    Person& person = people_[i];
+    person.number = tracked.person;
+    person.lengths = tracked.lengths;
+    if (tracked.state == TrackState::Lost) {
+      person.motion.addLost(tracked.time_s);
+    } else {
+      person.motion.add(tracked.time_s, tracked.q, tracked.lengths);
+    }
   }
 }
 
-void AnimationFiles::write(const BoneLengths& lengths) {
+void AnimationFiles::write() {
   if (bvh_.empty() && gltf_.empty()) return;
-  if (motion_.empty()) {
+  bool anybody = false;
+  std::vector<GltfPerson> found;
+  for (const Person& person : people_) {
+    if (person.motion.empty()) continue;
+    anybody = true;
+    const MotionTrack track = person.motion.track(person.lengths);
+    if (!bvh_.empty()) writeBvh(bvhOf(person), track);
+    if (!gltf_.empty()) found.push_back({person.number, makeBuiltinBody(track.lengths), track});
+  }
+  if (!anybody) {
     throw Error("nobody was tracked, so there is no motion to write", (bvh_.empty() ? gltf_ : bvh_).string());
   }
-  const MotionTrack track = motion_.track(lengths);
-  if (!bvh_.empty()) writeBvh(track);
-  if (!gltf_.empty()) writeGltf(gltf_, makeBuiltinBody(track.lengths), track);
+  if (!gltf_.empty()) writeGltf(gltf_, found);
   bvh_.clear();
   gltf_.clear();
 }
 
-void AnimationFiles::writeBvh(const MotionTrack& track) const {
+std::filesystem::path AnimationFiles::bvhOf(const Person& person) const {
+  if (people_.size() == 1) return bvh_;
+  return bvh_.parent_path() / fmt::format("{}-{}{}", bvh_.stem().string(), person.number, bvh_.extension().string());
+}
+
+void AnimationFiles::writeBvh(const std::filesystem::path& path, const MotionTrack& track) const {
   const bool moving = track.sizeChanges() && !bvh_rigid_;
-  BvhWriter writer(bvh_, makeSkeleton(track.lengths), 1.0 / track.frameTime_s(fps_), bvh_scale_, moving);
+  BvhWriter writer(path, makeSkeleton(track.lengths), 1.0 / track.frameTime_s(fps_), bvh_scale_, moving);
   for (const MotionTrack::Frame& frame : track.frames) {
     if (moving) {
       writer.write(frame.q, makeSkeleton(track.lengths.scaled(frame.scale)));

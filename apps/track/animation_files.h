@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <span>
+#include <vector>
 
 #include "apps/track/track_options.h"
 #include "depthmocap/tracked_frame.h"
@@ -7,24 +9,32 @@
 
 namespace depthmocap {
 
-// The motion as BVH and glTF, as the options ask. Written at the end: a body's bone lengths are known only then.
+// The motion as BVH and glTF, as the options ask. Written at the end: a body's bone lengths are known only then. Of
+// several people each has a BVH file of its own (M-1.bvh, M-2.bvh, ...), and all are in one glTF file.
 class AnimationFiles {
  public:
   // `fps` [1/s] (> 0) of the recording.
   AnimationFiles(const TrackOptions& options, double fps);
-  void add(const TrackedFrame& tracked);
-  // Once; `lengths`: the body's at the end. Error where nobody was tracked or a file cannot be written.
-  void write(const BoneLengths& lengths);
+  // Everybody in the next frame; the same number of people at every call.
+  void add(std::span<const TrackedFrame* const> people);
+  // Once. Error where nobody was tracked or a file cannot be written.
+  void write();
 
  private:
-  void writeBvh(const MotionTrack& track) const;
+  struct Person {
+    int number = 1;
+    BoneLengths lengths;  // at the end
+    MotionTrackBuilder motion;
+  };
+  [[nodiscard]] std::filesystem::path bvhOf(const Person& person) const;
+  void writeBvh(const std::filesystem::path& path, const MotionTrack& track) const;
 
   std::filesystem::path bvh_;
   std::filesystem::path gltf_;
   bool bvh_rigid_;
   double bvh_scale_;
   double fps_;
-  MotionTrackBuilder motion_;
+  std::vector<Person> people_;
 };
 
 }  // namespace depthmocap

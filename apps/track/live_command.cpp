@@ -109,7 +109,7 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
   }
   std::cerr << summaryText(figures, run.session->stats()) << '\n';
   if (figures.received == 0) attempt([&] { throw Error("not one frame came", options.source.source); });
-  if (figures.received > 0) attempt([&] { run.outputs.finish(run.tracker.actor()); });
+  if (figures.received > 0) attempt([&] { run.outputs.finish(); });
   run.session->stats().setLive(figures);
   if (!options.track.stats.empty())
     attempt([&] { run.session->stats().write(options.track.stats, wall_s, options.track.actor.empty()); });

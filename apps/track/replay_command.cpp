@@ -72,7 +72,7 @@ void replay(const ReplayOptions& o) {
                  [](const std::string& message) { std::cerr << "depthmocap: warning: " << message << '\n'; },
                  [] { return StopRequest::made(); }});
   }
-  outputs.finish(tracker.actor());
+  outputs.finish();
   const RunStats& stats = session.stats();
   if (!o.track.stats.empty()) stats.write(o.track.stats, millisecondsSince(start) / 1000.0, o.track.actor.empty());
   std::cerr << "tracked " << stats.tracked() << " of " << stats.frames() << " frames\n";

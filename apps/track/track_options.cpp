@@ -3,13 +3,20 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/view/view_options.h"
+#include "libtracker/segment/segment.h"
 #include "libtracker/tracker/leave_out.h"
 
 namespace depthmocap {
 
 void addTrackOptions(CLI::App& command, TrackOptions& o) {
+  command.add_option("--people", o.people, "Most people that are tracked at the same time")
+      ->check(CLI::Range(1, kMostPeople))
+      ->type_name("N")
+      ->capture_default_str();
   command
-      .add_option("--actor", o.actor, "Calibrated body (see calibrate); otherwise the size is fitted while tracking")
+      .add_option("--actor", o.actor,
+                  "Calibrated body (see calibrate); otherwise the size is fitted while tracking; of several people the "
+                  "first one")
       ->type_name("A.json");
   command.add_option("--joints", o.joints, "Joint centres in the camera frame, CSV")->type_name("J.csv");
   command.add_option("--pose", o.pose, "The 36 degrees of freedom per frame, CSV")->type_name("Q.csv");

@@ -14,6 +14,7 @@ namespace depthmocap {
 
 // Options that every tracking command shares; empty = not asked for.
 struct TrackOptions {
+  int people = 1;               // tracked at the same time
   std::filesystem::path actor;  // a calibrated body
   std::filesystem::path forest;
   std::filesystem::path posedb;

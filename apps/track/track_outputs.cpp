@@ -1,17 +1,22 @@
 #include "apps/track/track_outputs.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "apps/draw/preview.h"
 #include "apps/track/animation_files.h"
 #include "depthmocap/camera_model.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/core/parse_number.h"
 #include "libtracker/output/vmc_sender.h"
 #include "libtracker/recording/track_files.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -21,6 +26,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Everybody's parts in one image, each person's raised by `step` times the number less one. `all` is working memory.
+const PartImage& together(std::span<const TrackedFrame* const> people, int step, PartImage& all) {
+  if (people.size() == 1) return people.front()->labels;
+  all = people.front()->labels;
+  for (const TrackedFrame* person : people.subspan(1)) {
+    for (std::size_t i = 0; i < all.data.size(); ++i) {
+      const std::uint8_t part = person->labels.data[i];
+      if (part != 0) all.data[i] = static_cast<std::uint8_t>(part + step * (person->person - 1));
+    }
+  }
+  return all;
+}
+
 class LabelWriter {
  public:
   explicit LabelWriter(fs::path folder) : folder_(std::move(folder)) {
@@ -28,10 +46,12 @@ class LabelWriter {
     fs::create_directories(folder_, failure);
     if (failure) throw Error("cannot make the folder: " + failure.message(), folder_.string());
   }
-  void write(const TrackedFrame& tracked) const {
+  void write(std::span<const TrackedFrame* const> people) {
+    constexpr int kNumberStep = 16;  // between people: part + 16 * (number - 1)
+    const TrackedFrame& first = *people.front();
+    const PartImage& labels = together(people, kNumberStep, all_);
     char name[32];
-    std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(tracked.frame));
-    const PartImage& labels = tracked.labels;
+    std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(first.frame));
     const cv::Mat image(labels.height, labels.width, CV_8UC1, const_cast<std::uint8_t*>(labels.data.data()));
     std::vector<std::uint8_t> png;
     cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 3});
@@ -40,7 +60,20 @@ class LabelWriter {
 
  private:
   fs::path folder_;
+  PartImage all_;
 };
+
+// A stream for each of several people: the first to the port that was named, the others to those that follow.
+std::vector<VmcSender> vmcSenders(const std::string& target, int people) {
+  std::vector<VmcSender> senders;
+  const std::size_t colon = target.rfind(':');
+  const std::optional<std::int64_t> port =
+      colon == std::string::npos ? std::nullopt : parseInteger(target.substr(colon + 1));
+  for (int k = 0; k < people; ++k) {
+    senders.emplace_back(k == 0 || !port ? target : fmt::format("{}:{}", target.substr(0, colon), *port + k));
+  }
+  return senders;
+}
 
 }  // namespace
 
@@ -53,51 +86,62 @@ struct TrackOutputs::Files {
   std::optional<PreviewWriter> preview;
   std::optional<ContactSheet> contact_sheet;
   AnimationFiles animation;
-  std::optional<VmcSender> vmc;
-  BoneLengths last_lengths;
+  std::vector<VmcSender> vmc;  // one per person
+  bool several = false;
+  PartImage all_parts;
 };
 
 TrackOutputs::TrackOutputs(const TrackOptions& options, const RecordingInfo& info)
     : files_(std::make_unique<Files>(options, info)) {
   Files& f = *files_;
-  if (!options.joints.empty()) f.joints.emplace(options.joints);
-  if (!options.pose.empty()) f.pose.emplace(options.pose);
+  f.several = options.people > 1;
+  const FileOf kind = f.several ? FileOf::People : FileOf::OneActor;
+  if (!options.joints.empty()) f.joints.emplace(options.joints, kind);
+  if (!options.pose.empty()) f.pose.emplace(options.pose, kind);
   if (!options.labels.empty()) f.labels.emplace(options.labels);
   if (!options.preview.empty()) f.preview.emplace(options.preview, info.camera, info.fps);
-  if (!options.vmc.empty()) f.vmc.emplace(options.vmc);
+  if (!options.vmc.empty()) f.vmc = vmcSenders(options.vmc, options.people);
   if (!options.contact_sheet.empty()) f.contact_sheet.emplace(options.contact_sheet, info.camera);
 }
 
 TrackOutputs::~TrackOutputs() {
   try {
-    files_->animation.write(files_->last_lengths);
+    files_->animation.write();
   } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): another failure is already being reported
   }
 }
 
 void TrackOutputs::onFrame(const SessionFrame& frame) {
   Files& f = *files_;
-  const TrackedFrame& shown = frame.tracked;
-  const JointsRow row = jointsRow(shown);
-  if (f.joints) f.joints->write(row);
-  if (f.pose && shown.state != TrackState::Lost)
-    f.pose->write({shown.frame, shown.time_s, shown.q, shown.R_world_camera});
-  if (f.labels) f.labels->write(shown);
-  const PreviewFrame preview{&frame.depth.depth, &shown.labels, &shown.markers_camera, &row};
+  std::vector<JointsRow> rows;
+  for (const TrackedFrame* person : frame.people) rows.push_back(jointsRow(*person));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const TrackedFrame& person = *frame.people[i];
+    const bool there = person.state != TrackState::Lost;
+    if (f.joints && (there || !f.several)) f.joints->write(rows[i]);
+    if (f.pose && there) {
+      f.pose->write({person.frame, person.time_s, person.q, person.R_world_camera, person.person});
+    }
+    if (i < f.vmc.size()) f.vmc[i].send(person.time_s, person.state, person.lengths, person.q);
+  }
+  const bool nobody = std::ranges::all_of(rows, [](const JointsRow& row) { return row.state == TrackState::Lost; });
+  if (f.joints && f.several && nobody) f.joints->write(rows.front());
+  if (f.labels) f.labels->write(frame.people);
+  const PartImage& parts = together(frame.people, 0, f.all_parts);
+  const PreviewFrame preview{&frame.depth.depth, &parts, &frame.tracked.markers_camera,
+                             rows.data(),        {},     std::span(rows).subspan(1)};
   if (f.preview) f.preview->write(preview);
   if (f.contact_sheet) f.contact_sheet->add(preview);
-  f.animation.add(shown);
-  if (f.vmc) f.vmc->send(shown.time_s, shown.state, shown.lengths, shown.q);
-  f.last_lengths = shown.lengths;
+  f.animation.add(frame.people);
 }
 
-void TrackOutputs::finish(const Actor& actor) {
+void TrackOutputs::finish() {
   Files& f = *files_;
   if (f.joints) f.joints->finish();
   if (f.pose) f.pose->finish();
   if (f.preview) f.preview->finish();
   if (f.contact_sheet) f.contact_sheet->finish();
-  f.animation.write(actor.skeleton.lengths);
+  f.animation.write();
 }
 
 }  // namespace depthmocap

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "apps/track/track_options.h"
-#include "depthmocap/actor.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/session/frame_sink.h"
 
@@ -17,8 +16,7 @@ class TrackOutputs : public FrameSink {
   TrackOutputs(const TrackOutputs&) = delete;
   TrackOutputs& operator=(const TrackOutputs&) = delete;
   void onFrame(const SessionFrame& frame) override;
-  // `actor`: the body at the end of the run.
-  void finish(const Actor& actor);
+  void finish();
 
  private:
   struct Files;

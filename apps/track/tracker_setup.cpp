@@ -21,6 +21,7 @@ TrackerConfig trackerConfig(const TrackOptions& options) {
   for (const std::string& part : options.without) leaveOut(part, config);
   if (!options.config.empty()) readConfigFile(options.config, config);
   config.threads = options.threads;
+  config.people = options.people;
   if (options.assumed_stature_m > 0) config.policy.assumed_stature_m = options.assumed_stature_m;
   if (!options.save_config.empty()) writeConfigFile(options.save_config, config);
   return config;

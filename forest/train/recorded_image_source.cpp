@@ -1,13 +1,9 @@
 #include "forest/train/recorded_image_source.h"
 
-#include <opencv2/core.hpp>
-
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
 #include "depthmocap/parts.h"
-#include "forest/train/write_picture.h"
-#include "libtracker/recording/part_colors.h"
 #include "libtracker/recording/png_file.h"
 
 namespace depthmocap {
@@ -49,17 +45,6 @@ void RecordedImageSource::render(std::size_t i, TrainingImage& image) {
   for (std::size_t p = 0; p < image.depth.data.size(); ++p) {
     if (image.labels.data[p] == 0) image.depth.data[p] = 0;
   }
-}
-
-void writeColouredLabels(const PartImage& labels, const std::filesystem::path& path) {
-  cv::Mat picture(labels.height, labels.width, CV_8UC3);
-  for (int y = 0; y < labels.height; ++y) {
-    for (int x = 0; x < labels.width; ++x) {
-      const auto& rgb = kPartColors[labels.at(x, y)];
-      picture.at<cv::Vec3b>(y, x) = {rgb[2], rgb[1], rgb[0]};
-    }
-  }
-  writePicture(picture, path);
 }
 
 }  // namespace depthmocap

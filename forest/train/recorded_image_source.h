@@ -29,7 +29,4 @@ class RecordedImageSource : public TrainingImageSource {
   std::unique_ptr<RecordingReader> reader_;
 };
 
-// The parts in their colours (kPartColors) as PNG, for people to look at.
-void writeColouredLabels(const PartImage& labels, const std::filesystem::path& path);
-
 }  // namespace depthmocap

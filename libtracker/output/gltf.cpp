@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "libtracker/body/pose_surface.h"
 #include "libtracker/core/atomic_file.h"
@@ -101,90 +104,114 @@ Eigen::Matrix3d nodeRotation(int skin_bone, const Pose& q) {
          Eigen::AngleAxisd(-q[limb.twist], Eigen::Vector3d::Unit(limb.axis)).toRotationMatrix();
 }
 
+// The names of the first person's nodes are what other programs know; the others' say whose they are.
+std::string named(const std::string& name, int number) {
+  return number == 1 ? name : fmt::format("{}-{}", name, number);
+}
+
 class Document {
  public:
-  Document(const BodySurface& body, const MotionTrack& track)
-      : body_(body), track_(track), nodes_(rigNodes(body.skeleton)) {
+  Document() {
+    document_["asset"] = {{"version", "2.0"}, {"generator", "depthmocap"}};
+    document_["scene"] = 0;
+  }
+
+  // `start_s`: of the animation, in the time of the track.
+  void add(int number, const BodySurface& body, const MotionTrack& track, double start_s) {
+    Rig rig{body, track, rigNodes(body.skeleton), {}, nodes_.size()};
     float lowest = 0;
     for (const Eigen::Vector3f& p : body.vertices) lowest = std::min(lowest, p.y());
-    lift_ = Eigen::Vector3d(0, -static_cast<double>(lowest), 0);
-    nodes_[0].offset = lift_;
+    rig.lift = Eigen::Vector3d(0, -static_cast<double>(lowest), 0);
+    rig.nodes[0].offset = rig.lift;
+    addNodes(rig, number);
+    addSkin(rig);
+    addMesh(rig, number);
+    if (!track.frames.empty()) addAnimation(rig, start_s);
   }
 
   std::string bytes() {
-    addNodes();
-    addSkin();
-    addMesh();
-    if (!track_.frames.empty()) addAnimation();
+    document_["scenes"] = listOf({{"nodes", armatures_}});
+    document_["nodes"] = nodes_;
+    document_["skins"] = skins_;
+    document_["meshes"] = meshes_;
+    const json look = {{"baseColorFactor", {0.62, 0.66, 0.72, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
+    document_["materials"] = listOf({{"name", "Skin"}, {"pbrMetallicRoughness", look}});
+    if (!channels_.empty()) {
+      document_["animations"] = listOf({{"name", "Motion"}, {"samplers", samplers_}, {"channels", channels_}});
+    }
     buffer_.describe(document_);
     return packed();
   }
 
  private:
-  [[nodiscard]] int meshNode() const { return static_cast<int>(nodes_.size()); }
-  [[nodiscard]] int armatureNode() const { return meshNode() + 1; }
+  // One person's part of the document.
+  struct Rig {
+    const BodySurface& body;
+    const MotionTrack& track;
+    std::vector<RigNode> nodes;
+    Eigen::Vector3d lift;
+    std::size_t first;  // index of the first node in the document
+  };
 
-  void addNodes() {
-    json nodes = json::array();
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      const RigNode& node = nodes_[n];
+  void addNodes(const Rig& rig, int number) {
+    for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
+      const RigNode& node = rig.nodes[n];
       json entry = {{"name", node.name}, {"translation", {node.offset.x(), node.offset.y(), node.offset.z()}}};
       json children = json::array();
-      for (std::size_t child = n + 1; child < nodes_.size(); ++child) {
-        if (nodes_[child].parent == static_cast<int>(n)) children.push_back(child);
+      for (std::size_t child = n + 1; child < rig.nodes.size(); ++child) {
+        if (rig.nodes[child].parent == static_cast<int>(n)) children.push_back(rig.first + child);
       }
       if (!children.empty()) entry["children"] = children;
-      nodes.push_back(entry);
+      nodes_.push_back(entry);
     }
-    nodes.push_back({{"name", "Body"}, {"mesh", 0}, {"skin", 0}});
-    nodes.push_back({{"name", "Armature"}, {"children", {0, meshNode()}}});
-    document_["asset"] = {{"version", "2.0"}, {"generator", "depthmocap"}};
-    document_["scene"] = 0;
-    document_["scenes"] = listOf({{"nodes", listOf(armatureNode())}});
-    document_["nodes"] = nodes;
+    const std::size_t mesh_node = nodes_.size();
+    nodes_.push_back({{"name", named("Body", number)}, {"mesh", meshes_.size()}, {"skin", skins_.size()}});
+    armatures_.push_back(nodes_.size());
+    nodes_.push_back({{"name", named("Armature", number)}, {"children", {rig.first, mesh_node}}});
   }
 
-  void addSkin() {
+  void addSkin(const Rig& rig) {
     std::vector<Eigen::Vector3d> origin;
     std::vector<float> inverse_bind;
     json joints = json::array();
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      const int parent = nodes_[n].parent;
-      origin.push_back(nodes_[n].offset);
+    for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
+      const int parent = rig.nodes[n].parent;
+      origin.push_back(rig.nodes[n].offset);
       if (parent >= 0) origin[n] += origin[static_cast<std::size_t>(parent)];
       Eigen::Matrix4f inverse = Eigen::Matrix4f::Identity();
       inverse.topRightCorner<3, 1>() = -origin[n].cast<float>();
       inverse_bind.insert(inverse_bind.end(), inverse.data(), inverse.data() + 16);
-      joints.push_back(n);
+      joints.push_back(rig.first + n);
     }
-    const int accessor = buffer_.add(inverse_bind, nodes_.size(), kFloat, "MAT4");
-    document_["skins"] = listOf({{"joints", joints}, {"skeleton", 0}, {"inverseBindMatrices", accessor}});
+    const int accessor = buffer_.add(inverse_bind, rig.nodes.size(), kFloat, "MAT4");
+    skins_.push_back({{"joints", joints}, {"skeleton", rig.first}, {"inverseBindMatrices", accessor}});
   }
 
-  void addMesh() {
+  void addMesh(const Rig& rig, int number) {
+    const BodySurface& body = rig.body;
     std::vector<float> positions;
     std::vector<float> normals;
     std::vector<float> weights;
     std::vector<std::uint8_t> bones;
     Eigen::Vector3f low = Eigen::Vector3f::Constant(1e9F);
     Eigen::Vector3f high = -low;
-    const auto vertex_normals = vertexNormals(body_.vertices, body_.triangles);
-    for (std::size_t v = 0; v < body_.vertices.size(); ++v) {
-      const Eigen::Vector3f p = body_.vertices[v] + lift_.cast<float>();
+    const auto vertex_normals = vertexNormals(body.vertices, body.triangles);
+    for (std::size_t v = 0; v < body.vertices.size(); ++v) {
+      const Eigen::Vector3f p = body.vertices[v] + rig.lift.cast<float>();
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
       append(positions, p.cast<double>());
       const Eigen::Vector3f& n = vertex_normals[v];
       append(normals, n.isZero() ? Eigen::Vector3d(0, 1, 0) : Eigen::Vector3d(n.cast<double>()));
       for (std::size_t k = 0; k < 4; ++k) {
-        const float weight = body_.skin[v].weight[k];
+        const float weight = body.skin[v].weight[k];
         weights.push_back(weight);
-        bones.push_back(weight > 0 ? body_.skin[v].bone[k] : std::uint8_t{0});
+        bones.push_back(weight > 0 ? body.skin[v].bone[k] : std::uint8_t{0});
       }
     }
     std::vector<std::uint32_t> indices;
-    for (const auto& triangle : body_.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
-    const std::size_t count = body_.vertices.size();
+    for (const auto& triangle : body.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+    const std::size_t count = body.vertices.size();
     const int position = buffer_.add(positions, count, kFloat, "VEC3", kArrayBuffer);
     buffer_.accessor(position)["min"] = {low.x(), low.y(), low.z()};
     buffer_.accessor(position)["max"] = {high.x(), high.y(), high.z()};
@@ -194,48 +221,45 @@ class Document {
     const int index = buffer_.add(indices, indices.size(), kUnsignedInt, "SCALAR", kElementArrayBuffer);
     const json attributes = {{"POSITION", position}, {"NORMAL", normal}, {"JOINTS_0", joint}, {"WEIGHTS_0", weight}};
     const json primitive = {{"attributes", attributes}, {"indices", index}, {"material", 0}};
-    document_["meshes"] = listOf({{"name", "Body"}, {"primitives", listOf(primitive)}});
-    const json look = {{"baseColorFactor", {0.62, 0.66, 0.72, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
-    document_["materials"] = listOf({{"name", "Skin"}, {"pbrMetallicRoughness", look}});
+    meshes_.push_back({{"name", named("Body", number)}, {"primitives", listOf(primitive)}});
   }
 
-  void addAnimation() {
+  void addAnimation(const Rig& rig, double start_s) {
+    const MotionTrack& track = rig.track;
     std::vector<float> times;
-    for (const auto& frame : track_.frames) {
-      times.push_back(static_cast<float>(frame.time_s - track_.frames.front().time_s));
-    }
-    time_accessor_ = buffer_.add(times, times.size(), kFloat, "SCALAR");
-    buffer_.accessor(time_accessor_)["min"] = listOf(times.front());
-    buffer_.accessor(time_accessor_)["max"] = listOf(times.back());
+    for (const auto& frame : track.frames) times.push_back(static_cast<float>(frame.time_s - start_s));
+    const int time_accessor = buffer_.add(times, times.size(), kFloat, "SCALAR");
+    buffer_.accessor(time_accessor)["min"] = listOf(times.front());
+    buffer_.accessor(time_accessor)["max"] = listOf(times.back());
+    const auto add = [&](std::size_t node, const char* path, const std::vector<float>& values, const char* type) {
+      const int output = buffer_.add(values, track.frames.size(), kFloat, type);
+      channels_.push_back({{"sampler", samplers_.size()}, {"target", {{"node", rig.first + node}, {"path", path}}}});
+      samplers_.push_back({{"input", time_accessor}, {"output", output}, {"interpolation", "LINEAR"}});
+    };
     std::vector<float> root;
-    for (const auto& frame : track_.frames) append(root, frame.q.head<3>());
-    addChannel(0, "translation", root, "VEC3");
-    if (track_.sizeChanges()) {
+    for (const auto& frame : track.frames) append(root, frame.q.head<3>());
+    add(0, "translation", root, "VEC3");
+    if (track.sizeChanges()) {
       std::vector<float> scale;
-      for (const auto& frame : track_.frames) append(scale, Eigen::Vector3d::Constant(frame.scale));
-      addChannel(0, "scale", scale, "VEC3");
+      for (const auto& frame : track.frames) append(scale, Eigen::Vector3d::Constant(frame.scale));
+      add(0, "scale", scale, "VEC3");
     }
-    for (int bone = 0; bone < kSkinBoneCount; ++bone) addChannel(bone, "rotation", rotations(bone), "VEC4");
-    document_["animations"] = listOf({{"name", "Motion"}, {"samplers", samplers_}, {"channels", channels_}});
+    for (int bone = 0; bone < kSkinBoneCount; ++bone) {
+      add(static_cast<std::size_t>(bone), "rotation", rotations(track, bone), "VEC4");
+    }
   }
 
   // x y z w, each on the side of its predecessor, so that linear interpolation does not go the long way.
-  [[nodiscard]] std::vector<float> rotations(int bone) const {
+  [[nodiscard]] static std::vector<float> rotations(const MotionTrack& track, int bone) {
     std::vector<float> values;
     Eigen::Vector4d before = Eigen::Vector4d::Zero();
-    for (const auto& frame : track_.frames) {
+    for (const auto& frame : track.frames) {
       Eigen::Vector4d now = Eigen::Quaterniond(nodeRotation(bone, frame.q)).normalized().coeffs();
       if (now.dot(before) < 0) now = -now;
       for (int i = 0; i < 4; ++i) values.push_back(static_cast<float>(now[i]));
       before = now;
     }
     return values;
-  }
-
-  void addChannel(int node, const char* path, const std::vector<float>& values, const char* type) {
-    const int output = buffer_.add(values, track_.frames.size(), kFloat, type);
-    channels_.push_back({{"sampler", samplers_.size()}, {"target", {{"node", node}, {"path", path}}}});
-    samplers_.push_back({{"input", time_accessor_}, {"output", output}, {"interpolation", "LINEAR"}});
   }
 
   [[nodiscard]] std::string packed() const {
@@ -259,25 +283,34 @@ class Document {
     return file;
   }
 
-  const BodySurface& body_;
-  const MotionTrack& track_;
-  std::vector<RigNode> nodes_;
-  Eigen::Vector3d lift_;
   Buffer buffer_;
   json document_;
+  json nodes_ = json::array();
+  json armatures_ = json::array();
+  json skins_ = json::array();
+  json meshes_ = json::array();
   json samplers_ = json::array();
   json channels_ = json::array();
-  int time_accessor_ = 0;
 };
+
+double startOf(const MotionTrack& track) {
+  return track.frames.empty() ? 0.0 : track.frames.front().time_s;
+}
 
 }  // namespace
 
 std::string gltfBytes(const BodySurface& body, const MotionTrack& track) {
-  return Document(body, track).bytes();
+  Document document;
+  document.add(1, body, track, startOf(track));
+  return document.bytes();
 }
 
-void writeGltf(const std::filesystem::path& path, const BodySurface& body, const MotionTrack& track) {
-  writeFileAtomically(path, gltfBytes(body, track));
+void writeGltf(const std::filesystem::path& path, const std::vector<GltfPerson>& people) {
+  double start_s = std::numeric_limits<double>::max();
+  for (const GltfPerson& person : people) start_s = std::min(start_s, startOf(person.track));
+  Document document;
+  for (const GltfPerson& person : people) document.add(person.number, person.body, person.track, start_s);
+  writeFileAtomically(path, document.bytes());
 }
 
 }  // namespace depthmocap

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "libtracker/body/body_surface.h"
 #include "libtracker/output/motion_track.h"
@@ -14,7 +15,15 @@ namespace depthmocap {
 // A track without frames gives a body without animation. The same input gives the same bytes.
 std::string gltfBytes(const BodySurface& body, const MotionTrack& track);
 
-// Written whole or not at all; Error names the file.
-void writeGltf(const std::filesystem::path& path, const BodySurface& body, const MotionTrack& track);
+// One of the people of a file.
+struct GltfPerson {
+  int number = 1;  // in the names of armature and mesh, where it is not 1
+  BodySurface body;
+  MotionTrack track;
+};
+
+// Several people, each with a skeleton, a skin and channels of one animation of their own; times count from the first
+// frame of all. Written whole or not at all; Error names the file.
+void writeGltf(const std::filesystem::path& path, const std::vector<GltfPerson>& people);
 
 }  // namespace depthmocap

@@ -85,6 +85,7 @@ struct VmcSender::Impl {
 VmcSender::VmcSender(const std::string& target) : impl_(std::make_unique<Impl>(parseTarget(target))) {}
 
 VmcSender::~VmcSender() = default;
+VmcSender::VmcSender(VmcSender&&) noexcept = default;
 
 void VmcSender::send(double time_s, TrackState state, const BoneLengths& lengths, const Pose& q) {
   Impl& s = *impl_;

@@ -14,6 +14,7 @@ class VmcSender {
   // `target` is HOST:PORT; Error where it is none or the host is unknown.
   explicit VmcSender(const std::string& target);
   ~VmcSender();
+  VmcSender(VmcSender&&) noexcept;
   // While the actor is lost only OK and T are sent. That nobody listens is no failure.
   void send(double time_s, TrackState state, const BoneLengths& lengths, const Pose& q);
 

@@ -32,6 +32,8 @@ std::string worldFrameComment(const Eigen::Matrix3d& R_world_camera) {
                      p_camera);
 }
 
+constexpr std::string_view kPersonColumn = "person";
+
 std::vector<std::string> jointsColumns() {
   std::vector<std::string> columns = {"frame", "time_s", "state"};
   for (const std::string_view joint : kJointNames) {
@@ -64,6 +66,27 @@ Row startRow(const CsvReader& csv, const std::vector<Row>& rows) {
   return row;
 }
 
+// The column that says whose a row is, where the file is of several people.
+class WhoseRow {
+ public:
+  // Right after the header was read.
+  explicit WhoseRow(const CsvReader& csv, int person) : person_(person) {
+    for (std::size_t i = 0; i < csv.fieldCount(); ++i) {
+      if (csv.field(i) == kPersonColumn) column_ = i;
+    }
+  }
+  // Whether the current row is the wanted person's.
+  [[nodiscard]] bool wanted(const CsvReader& csv) const {
+    if (!column_) return true;
+    if (*column_ >= csv.fieldCount() || csv.field(*column_).empty()) return false;  // nobody was there
+    return csv.integer(*column_) == person_;
+  }
+
+ private:
+  int person_;
+  std::optional<std::size_t> column_;
+};
+
 void readJointPositions(const CsvReader& csv, JointsRow& row) {
   for (int joint = 0; joint < kJointCount; ++joint) {
     const std::size_t column = kFirstJointColumn + kColumnsPerJoint * static_cast<std::size_t>(joint);
@@ -77,29 +100,39 @@ void readJointPositions(const CsvReader& csv, JointsRow& row) {
 
 }  // namespace
 
-std::vector<JointsRow> readJointsFile(const std::filesystem::path& path) {
+std::vector<JointsRow> readJointsFile(const std::filesystem::path& path, int person) {
   CsvReader csv(path);
   csv.readHeader(jointsColumns());
+  const WhoseRow whose(csv, person);
   std::vector<JointsRow> rows;
   while (csv.next()) {
+    if (!whose.wanted(csv)) continue;
     auto row = startRow(csv, rows);
     row.state = parseState(csv, csv.field(2));
+    row.person = person;
     if (row.state != TrackState::Lost) readJointPositions(csv, row);
     rows.push_back(row);
   }
   return rows;
 }
 
-std::vector<PoseRow> readPoseFile(const std::filesystem::path& path) {
+std::vector<PoseRow> readPoseFile(const std::filesystem::path& path, int person) {
   CsvReader csv(path);
   csv.readHeader(poseColumns());
+  const WhoseRow whose(csv, person);
   std::vector<PoseRow> rows;
   while (csv.next()) {
+    if (!whose.wanted(csv)) continue;
     auto row = startRow(csv, rows);
+    row.person = person;
     for (int i = 0; i < kDofCount; ++i) row.q[i] = csv.number(kFirstDofColumn + static_cast<std::size_t>(i));
     rows.push_back(row);
   }
   return rows;
+}
+
+std::string personHeader(FileOf kind) {
+  return kind == FileOf::People ? fmt::format(",{}", kPersonColumn) : std::string();
 }
 
 // A table on its way to a file: kept whenever it holds whole rows, even when the work was broken off.
@@ -132,25 +165,28 @@ class RowFile {
 };
 
 struct JointsWriter::Impl : RowFile {
-  using RowFile::RowFile;
+  Impl(const std::filesystem::path& path, FileOf file_of) : RowFile(path, jointsHeader(file_of)), kind(file_of) {}
+  const FileOf kind;
 };
 
 struct PoseWriter::Impl : RowFile {
-  explicit Impl(const std::filesystem::path& path) : RowFile(path, "") {}
+  Impl(const std::filesystem::path& path, FileOf file_of) : RowFile(path, ""), kind(file_of) {}
 
   void nameWorld(const Eigen::Matrix3d& R_world_camera) {
     if (named && *named == R_world_camera) return;
     std::string text = worldFrameComment(R_world_camera);
-    if (!named) text += fmt::format("{}\n", fmt::join(poseColumns(), ","));
+    if (!named) text += fmt::format("{}{}\n", fmt::join(poseColumns(), ","), personHeader(kind));
     write(text);
     named = R_world_camera;
   }
 
+  const FileOf kind;
   std::optional<Eigen::Matrix3d> named;
 };
 
 JointsRow jointsRow(const TrackedFrame& tracked) {
   JointsRow row;
+  row.person = tracked.person;
   row.frame = tracked.frame;
   row.time_s = tracked.time_s;
   row.state = tracked.state;
@@ -160,14 +196,15 @@ JointsRow jointsRow(const TrackedFrame& tracked) {
   return row;
 }
 
-std::string jointsHeader() {
-  return fmt::format("{}\n", fmt::join(jointsColumns(), ","));
+std::string jointsHeader(FileOf kind) {
+  return fmt::format("{}{}\n", fmt::join(jointsColumns(), ","), personHeader(kind));
 }
 
-JointsWriter::JointsWriter(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path, jointsHeader())) {}
+JointsWriter::JointsWriter(const std::filesystem::path& path, FileOf kind)
+    : impl_(std::make_unique<Impl>(path, kind)) {}
 JointsWriter::~JointsWriter() = default;
 
-std::string jointsLine(const JointsRow& row) {
+std::string jointsLine(const JointsRow& row, FileOf kind) {
   DMC_CHECK(row.p_camera.allFinite() && row.confidence.allFinite());
   std::string text = fmt::format("{},{:.6f},{}", row.frame, row.time_s, trackStateName(row.state));
   for (int joint = 0; joint < kJointCount; ++joint) {
@@ -179,18 +216,19 @@ std::string jointsLine(const JointsRow& row) {
                      row.confidence[joint]);
     }
   }
+  if (kind == FileOf::People) text += row.state == TrackState::Lost ? "," : fmt::format(",{}", row.person);
   return text + "\n";
 }
 
 void JointsWriter::write(const JointsRow& row) {
-  impl_->write(jointsLine(row));
+  impl_->write(jointsLine(row, impl_->kind));
 }
 
 void JointsWriter::finish() {
   impl_->finish();
 }
 
-PoseWriter::PoseWriter(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+PoseWriter::PoseWriter(const std::filesystem::path& path, FileOf kind) : impl_(std::make_unique<Impl>(path, kind)) {}
 PoseWriter::~PoseWriter() = default;
 
 void PoseWriter::write(const PoseRow& row) {
@@ -198,6 +236,7 @@ void PoseWriter::write(const PoseRow& row) {
   impl_->nameWorld(row.R_world_camera);
   std::string text = fmt::format("{},{:.6f}", row.frame, row.time_s);
   for (int i = 0; i < kDofCount; ++i) fmt::format_to(std::back_inserter(text), ",{:.6f}", row.q[i]);
+  if (impl_->kind == FileOf::People) text += fmt::format(",{}", row.person);
   impl_->write(text + "\n");
 }
 

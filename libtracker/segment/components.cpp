@@ -13,8 +13,6 @@ namespace {
 
 // Chosen by hand: no comparison of values is on record (docs/tuning.md).
 
-// [m] Height of the uppermost slice, whose width tells a head from a cupboard's top.
-constexpr float kTopSlice_m = 0.2F;
 // Share of a component's cells that must be somebody's for the component to be.
 constexpr float kKnownShare = 0.2F;
 // [cells] Smaller components have no thickness and are never mistaken for a panel.
@@ -43,9 +41,9 @@ std::int32_t ComponentFinder::root(std::int32_t cell) {
 void ComponentFinder::connect(std::int32_t a, std::int32_t b) {
   const Identity who_a = who_[static_cast<std::size_t>(a)];
   const Identity who_b = who_[static_cast<std::size_t>(b)];
-  if (who_a != who_b && who_a != Identity::Unknown && who_b != Identity::Unknown) return;
+  if (who_a != who_b && who_a != kUnknown && who_b != kUnknown) return;
   parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  who_[static_cast<std::size_t>(std::min(a, b))] = who_a != Identity::Unknown ? who_a : who_b;
+  who_[static_cast<std::size_t>(std::min(a, b))] = who_a != kUnknown ? who_a : who_b;
 }
 
 void ComponentFinder::connectCells(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, float gap_m) {
@@ -90,7 +88,6 @@ void ComponentFinder::numberComponents() {
 
 void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& up) {
   moments_.assign(components_.size(), Eigen::Matrix3d::Zero());
-  boxes_.assign(components_.size(), {cloud.width, cloud.height, -1, -1});
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x) {
       const std::size_t i = cloud.index(x, y);
@@ -113,17 +110,13 @@ void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& u
       c.touches_side |= x == 0 || x == cloud.width - 1;
       c.touches_top |= y == 0;
       c.touches_border |= c.touches_side || c.touches_top || y == cloud.height - 1;
-      CellBox& box = boxes_[label];
-      box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
       const Eigen::Vector3d pd = p.cast<double>();
       moments_[label].noalias() += pd * pd.transpose();
     }
   }
   for (std::size_t k = 0; k < components_.size(); ++k) {
     Component& c = components_[k];
-    const CellBox& box = boxes_[k];
     c.mean /= static_cast<float>(c.cells);
-    c.fill = static_cast<float>(c.cells) / static_cast<float>((box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1));
     if (c.cells < kMinCellsForThickness) continue;
     const Eigen::Vector3d mean = c.mean.cast<double>();
     const Eigen::Matrix3d covariance = moments_[k] / c.cells - mean * mean.transpose();
@@ -133,37 +126,31 @@ void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& u
   }
 }
 
-void ComponentFinder::measureTops(const CoarseCloud& cloud, const Eigen::Vector3f& up) {
-  for (std::size_t i = 0; i < labels_.size(); ++i) {
-    if (labels_[i] == kNoComponent) continue;
-    Component& c = components_[static_cast<std::size_t>(labels_[i])];
-    const Eigen::Vector3f& p = cloud.points[i];
-    if (up.dot(p) > c.top_m - kTopSlice_m) c.top_width_m += cloud.cellArea(p.z()) / kTopSlice_m;
-  }
-}
-
 void ComponentFinder::identify(std::span<const Identity> known) {
   known_cells_.assign(components_.size(), 0);
   for (std::size_t i = 0; i < known.size(); ++i) {
-    if (labels_[i] == kNoComponent || known[i] == Identity::Unknown) continue;
+    if (labels_[i] == kNoComponent || known[i] == kUnknown) continue;
     const auto label = static_cast<std::size_t>(labels_[i]);
     components_[label].who = known[i];
     ++known_cells_[label];
   }
   for (std::size_t k = 0; k < components_.size(); ++k) {
     Component& c = components_[k];
-    if (static_cast<float>(known_cells_[k]) < kKnownShare * static_cast<float>(c.cells)) c.who = Identity::Unknown;
+    if (static_cast<float>(known_cells_[k]) < kKnownShare * static_cast<float>(c.cells)) c.who = kUnknown;
   }
 }
 
 void ComponentFinder::find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m,
                            const Eigen::Vector3f& up, std::span<const Identity> known) {
-  who_.assign(cloud.points.size(), Identity::Unknown);
+  who_.assign(cloud.points.size(), kUnknown);
   std::copy(known.begin(), known.end(), who_.begin());
   connectCells(cloud, keep, static_cast<float>(gap_m));
   numberComponents();
+  describe(cloud, up, known);
+}
+
+void ComponentFinder::describe(const CoarseCloud& cloud, const Eigen::Vector3f& up, std::span<const Identity> known) {
   measure(cloud, up);
-  measureTops(cloud, up);
   identify(known);
 }
 

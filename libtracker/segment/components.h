@@ -18,13 +18,11 @@ struct Component {
   Eigen::Vector3f high = Eigen::Vector3f::Zero();
   float bottom_m = 0;
   float top_m = 0;
-  float fill = 0;         // (0, 1] share of its upright rectangle in the image
-  float top_width_m = 0;  // mean width of its uppermost 20 cm: a head's, of a standing person
   float thickness_m = 0;  // standard deviation across its best plane
   bool touches_border = false;
   bool touches_side = false;  // the left or the right border
   bool touches_top = false;
-  Identity who = Identity::Unknown;  // of a fair share of its cells
+  Identity who = kUnknown;  // of a fair share of its cells
 
   [[nodiscard]] float height() const { return top_m - bottom_m; }
   [[nodiscard]] float widthX() const { return high.x() - low.x(); }
@@ -42,6 +40,19 @@ class ComponentFinder {
   void find(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, double gap_m, const Eigen::Vector3f& up,
             std::span<const Identity> known = {});
 
+  // The cells of a component for which moves(cell) is true become a component of their own, the last one. The other
+  // arguments as they were given to find().
+  template <typename Moves>
+  void split(const CoarseCloud& cloud, const Eigen::Vector3f& up, std::span<const Identity> known, std::int32_t label,
+             Moves&& moves) {
+    const auto added = static_cast<std::int32_t>(components_.size());
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      if (labels_[i] == label && moves(i)) labels_[i] = added;
+    }
+    components_.assign(components_.size() + 1, {});
+    describe(cloud, up, known);
+  }
+
   [[nodiscard]] const std::vector<Component>& components() const { return components_; }
   [[nodiscard]] const std::vector<std::int32_t>& labels() const {
     return labels_;
@@ -52,19 +63,15 @@ class ComponentFinder {
   void connectCells(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep, float gap_m);
   void connect(std::int32_t a, std::int32_t b);
   void numberComponents();
+  void describe(const CoarseCloud& cloud, const Eigen::Vector3f& up, std::span<const Identity> known);
   void measure(const CoarseCloud& cloud, const Eigen::Vector3f& up);
-  void measureTops(const CoarseCloud& cloud, const Eigen::Vector3f& up);
   void identify(std::span<const Identity> known);
 
   std::vector<std::int32_t> parent_;
   std::vector<Identity> who_;  // of the cells that a root stands for
   std::vector<std::int32_t> labels_;
   std::vector<Component> components_;
-  struct CellBox {
-    int x0, y0, x1, y1;  // inclusive
-  };
   std::vector<Eigen::Matrix3d> moments_;
-  std::vector<CellBox> boxes_;
   std::vector<int> known_cells_;
 };
 

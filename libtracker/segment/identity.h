@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -7,26 +8,33 @@
 
 namespace depthmocap {
 
-// Whose a piece of surface is, as far as the frames before say.
-enum class Identity : std::uint8_t { Unknown, Actor, Other };
+// Whose a piece of surface is, as far as the frames before say: a person's by number (1 ..), nobody's that is known, or
+// somebody's who is not followed.
+using Identity = std::uint8_t;
+inline constexpr Identity kUnknown = 0;
+inline constexpr Identity kSomebodyElse = 255;
 
-// Carries from frame to frame which surface is the actor's and which is not, so that people who touch are told apart,
-// and nobody who was somebody else becomes the actor.
+// Carries from frame to frame which surface is whose, so that people who touch are told apart, and nobody who was
+// somebody else becomes one of those who are followed.
 class IdentityMemory {
  public:
-  // For each cell of a frame the identity of the nearest surface of the frame before; Unknown where nothing was near.
+  // For each cell of a frame the identity of the nearest surface of the frame before; kUnknown where nothing was near.
   // Reuses the memory of `known`.
-  void recall(const CoarseCloud& cloud, std::vector<Identity>& known) const;
+  void recall(const CoarseCloud& cloud, std::vector<Identity>& known);
   // The present frame, for the next one: `identities` one per component, `labels` the component of each cell.
   void remember(const CoarseCloud& cloud, const std::vector<std::int32_t>& labels,
                 const std::vector<Identity>& identities);
-  void forget() { identities_.clear(); }
+  void forget(Identity who) { std::replace(identities_.begin(), identities_.end(), who, kUnknown); }
+  void forgetAll() { identities_.clear(); }
 
  private:
+  void markNeighbourhood(const CoarseCloud& cloud);
   [[nodiscard]] Identity nearest(const CoarseCloud& cloud, int x, int y) const;
 
   std::vector<Eigen::Vector3f> points_;  // of the frame before, as CoarseCloud has them
   std::vector<Identity> identities_;     // one per cell; empty = nothing is known
+  std::vector<std::uint8_t> is_near_;    // 1 for each cell within reach of one whose identity is known
+  std::vector<std::uint8_t> in_row_;     // working memory of markNeighbourhood()
 };
 
 }  // namespace depthmocap

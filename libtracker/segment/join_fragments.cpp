@@ -49,8 +49,8 @@ bool isLarge(const Component& piece) {
 }
 
 // A piece that is known to be somebody else's, or stands beside the actor and is large enough for it.
-bool isOwnPerson(const Component& piece, const Component& body) {
-  if (piece.who != Identity::Unknown) return piece.who == Identity::Other;
+bool isOwnPerson(const Component& piece, const Component& body, Identity who) {
+  if (piece.who != kUnknown) return piece.who != who;
   const float overlap = std::min(piece.top_m, body.top_m) - std::max(piece.bottom_m, body.bottom_m);
   return piece.height() > kOwnPersonHeight_m && piece.area_m2 > kOwnPersonArea_m2 && overlap > 0.5F * piece.height();
 }
@@ -78,6 +78,7 @@ struct FragmentJoiner::Search {
   const std::vector<Component>& components;
   const std::vector<std::int32_t>& labels;
   const Component& body;
+  Identity who;
   bool cut_out;
   bool company;
   const std::vector<std::uint8_t>& selected;
@@ -112,7 +113,7 @@ bool FragmentJoiner::Search::comesOutFromBehind(std::size_t piece) const {
 
 float FragmentJoiner::Search::reachOf(std::size_t piece) const {
   const Component& c = components[piece];
-  if (c.who == Identity::Actor) return kArmReach_m;
+  if (c.who == who) return kArmReach_m;
   if (company) return kRoomGap_m;
   if (cut_out) return isLarge(c) ? kLimbGap_m : kArmReach_m;
   // In a room, what lies low before the body is a thing on the floor, what stands apart behind it is the room, and what
@@ -158,21 +159,23 @@ bool FragmentJoiner::belongs(const Search& search, std::size_t piece) const {
   return !contested && gap_to_actor <= kArmReach_m && gap_to_actor <= search.reachOf(piece);
 }
 
-void FragmentJoiner::join(const CoarseCloud& cloud, const ComponentFinder& found, std::int32_t person, bool cut_out,
-                          bool company, std::vector<std::uint8_t>& selected) {
+void FragmentJoiner::join(const CoarseCloud& cloud, const ComponentFinder& found, std::int32_t person, Identity who,
+                          bool cut_out, bool company, const std::vector<Identity>& owners,
+                          std::vector<std::uint8_t>& selected) {
   const std::vector<Component>& components = found.components();
   const Component& body = components[static_cast<std::size_t>(person)];
   selected.assign(components.size(), 0);
   selected[static_cast<std::size_t>(person)] = 1;
   samplePoints(cloud, found);
-  const Search search{cloud, components, found.labels(), body, cut_out, company, selected};
+  const Search search{cloud, components, found.labels(), body, who, cut_out, company, selected};
   for (const bool large : {true, false}) {  // first limbs and trunk; what large is left then belongs to others
     for (bool grown = true; grown;) {       // a joined forearm may bring in the hand
       grown = false;
       for (std::size_t k = 0; k < components.size(); ++k) {
         const Component& c = components[k];
-        const bool possible = selected[k] == 0 && isLarge(c) == large && c.area_m2 >= kMinPieceArea_m2;
-        if (!possible || isOwnPerson(c, body) || !belongs(search, k)) continue;
+        const bool possible =
+            selected[k] == 0 && owners[k] == kUnknown && isLarge(c) == large && c.area_m2 >= kMinPieceArea_m2;
+        if (!possible || isOwnPerson(c, body, who) || !belongs(search, k)) continue;
         selected[k] = 1;
         grown = true;
       }

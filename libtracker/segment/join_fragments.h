@@ -11,11 +11,12 @@ namespace depthmocap {
 // pieces that are no person of their own, hands held out, limbs that come out from behind the body.
 class FragmentJoiner {
  public:
-  // `cut_out`: the background is already removed, so that what is left is mostly the actor. `company`: somebody else is
-  // or was near just now, whose pieces could be taken for the actor's. `selected` receives 1 per component that is part
-  // of the actor.
-  void join(const CoarseCloud& cloud, const ComponentFinder& found, std::int32_t person, bool cut_out, bool company,
-            std::vector<std::uint8_t>& selected);
+  // `who` is the actor. `cut_out`: the background is already removed, so that what is left is mostly the actor.
+  // `company`: somebody else is or was near just now, whose pieces could be taken for the actor's. `owners` (one per
+  // component): pieces that are already somebody's are not joined. `selected` receives 1 per component that is part of
+  // the actor.
+  void join(const CoarseCloud& cloud, const ComponentFinder& found, std::int32_t person, Identity who, bool cut_out,
+            bool company, const std::vector<Identity>& owners, std::vector<std::uint8_t>& selected);
 
  private:
   struct Search;  // one call's inputs

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libtracker/segment/depth_noise.h"
-#include "libtracker/segment/planes.h"
+#include "libtracker/segment/find_floor.h"
 
 namespace depthmocap {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -10,12 +12,13 @@
 #include "libtracker/segment/choose_person.h"
 #include "libtracker/segment/coarse_cloud.h"
 #include "libtracker/segment/components.h"
+#include "libtracker/segment/find_floor.h"
 #include "libtracker/segment/hidden_part.h"
 #include "libtracker/segment/identity.h"
 #include "libtracker/segment/join_fragments.h"
-#include "libtracker/segment/planes.h"
+#include "libtracker/segment/person_evidence.h"
 #include "libtracker/segment/refine_mask.h"
-#include "libtracker/segment/surface_shape.h"
+#include "libtracker/segment/split_crowd.h"
 
 namespace depthmocap {
 
@@ -27,22 +30,20 @@ namespace {
 constexpr double kFloorMovedShare = 0.6;
 // [px] Image size that SegmentConfig::min_pixels is given for.
 constexpr double kReferencePixels = 320.0 * 240.0;
-// [1/frame] Rate at which the actor's usual score and area follow the present ones: a time constant of 50 frames.
+// [1/frame] Rate at which the usual score and area of a person follow the present ones: a time constant of 50 frames.
 constexpr float kUsualRate = 0.02F;
-// Share of the actor in view that is enough to say that another piece is not the actor's.
+// Share of a person in view that is enough to say that another piece is not theirs.
 constexpr double kPlain = 0.6;
-// [s] Time for which a hidden actor is about where expected.
+// [s] Time for which a hidden person is about where expected.
 constexpr double kSurelyThere_s = 1.5;
-// [m] Horizontal distance from the expected place within which something new is the hidden actor.
+// [m] Horizontal distance from the expected place within which something new is the hidden person.
 constexpr float kTrunk_m = 0.35F;
-// [m] Distance from the actor within which somebody else is company, so that detached pieces may be theirs.
+// [m] Distance from a person within which somebody else is company, so that detached pieces may be theirs.
 constexpr float kCompany_m = 1.0F;
 // [frames] Time for which company is reckoned with after it was last seen.
 constexpr int kCompanyFrames = 30;
-// Share of the actor's usual score from which another component is somebody.
+// Share of a person's usual score from which another component is somebody.
 constexpr float kCompanyLooks = 0.1F;
-// [m^2] Area in view from which a thing is told from the actor for good: somebody may lean on it.
-constexpr float kLargeThing_m2 = 0.3F;
 
 }  // namespace
 
@@ -57,7 +58,7 @@ std::vector<ConfigField> SegmentConfig::fields() {
        "A person is at least this tall, unless cut by the border of the image"},
       {"max_height_m", &max_height_m, "m", above(0), "A person is at most this tall"},
       {"min_pixels", &min_pixels, "px", atLeast(1), "Fewer pixels at 320x240 are no person"},
-      {"plane_interval", &plane_interval, "frames", atLeast(1), "Floor and walls are looked for again after this many"},
+      {"plane_interval", &plane_interval, "frames", atLeast(1), "The floor is looked for again after this many"},
   };
 }
 
@@ -67,38 +68,56 @@ void SegmentConfig::validate() const {
   checkConfig(max_height_m > min_height_m, "SegmentConfig", "max_height_m", max_height_m, "above min_height_m");
 }
 
+// What is known of one person from the frames before.
+struct Followed {
+  float usual_score = 0;    // of the person's looks
+  float usual_area_m2 = 0;  // in view, when nothing hides any of it; 0: not known
+  bool plain = false;       // most of the person was in view in the frame before
+  int company_frames = 0;   // to go until nobody else is reckoned with
+};
+
 struct Segmenter::Impl {
   SegmentConfig config;
   CoarseCloud cloud;
   std::vector<std::uint8_t> keep;
-  std::vector<std::uint8_t> selected;
-  std::vector<Eigen::Vector3f> normals;
-  std::vector<float> box_shares;
-  std::vector<float> scores;
-  IdentityMemory memory;
-  std::vector<Identity> known;
-  std::vector<Identity> identities;
-  float usual_score = 0;     // of the actor's looks
-  bool actor_plain = false;  // most of the actor was in view in the frame before
-  int company_frames = 0;    // to go until nobody else is reckoned with
-  float usual_area_m2 = 0;   // in view of the actor, when nothing hides any of it; 0: not known
+  std::vector<std::uint8_t> off_floor;  // 1 for all that could hide somebody
+  PersonEvidence evidence;
   ComponentFinder finder;
+  CrowdSplitter splitter;
   FragmentJoiner joiner;
-  PlaneFinder plane_finder;
-  RoomPlanes planes;
+  FloorFinder floor_finder;
+  std::optional<Floor> floor;
   double floor_share_when_found = 0;
-  int frames_since_planes = -1;  // -1: not looked for yet
+  int frames_since_floor = -1;  // -1: not looked for yet
+  bool cut_out = false;         // the background was removed before
+  int frames_since_look = 0;    // with a removed background
+
+  // One per component.
+  std::vector<float> component_evidence;
+  std::vector<float> scores;
+  std::vector<Identity> owners;  // whose it is in this frame
+  std::vector<std::uint8_t> selected;
+
+  IdentityMemory memory;
+  std::vector<Identity> known;  // one per cell
+  std::vector<Followed> people;
+  std::vector<Choice> choices;  // one per person
 
   [[nodiscard]] Eigen::Vector3f upwards() const {
-    return planes.floor ? Eigen::Vector3f(planes.floor->head<3>()) : Eigen::Vector3f(0, -1, 0);
+    return floor ? Eigen::Vector3f(floor->plane.head<3>()) : Eigen::Vector3f(0, -1, 0);
   }
-  void updatePlanes();
-  void removeRoom();
-  Choice chooseActor(const DepthImage& depth, const ExpectedActor* expected, bool cut_out);
-  void recallPeople(const ExpectedActor* expected);
-  void rememberPeople(const Choice& choice);
-  void noteCompany(const Choice& choice);
-  double visibleShare();
+  void updateFloor();
+  void recallPeople(const ExpectedPeople& expected);
+  void recallHidden(const ExpectedActor& expected, Identity who);
+  void removeRoom(const RoomMap& map);
+  void findComponents(const DepthImage& depth, const RoomLook& look);
+  bool findCutOut(const RoomLook& look);
+  void weighComponents();
+  Choice choose(const ExpectedActor* expected, Identity who);
+  void take(const Choice& choice, Identity who);
+  [[nodiscard]] double visibleShare(Followed& person);
+  void rememberPeople();
+  void noteCompany(const Choice& choice, Identity who);
   void summarise(const DepthImage& depth, const CameraModel& camera, PersonRegion& out) const;
 };
 
@@ -110,98 +129,168 @@ Segmenter::~Segmenter() = default;
 Segmenter::Segmenter(Segmenter&&) noexcept = default;
 Segmenter& Segmenter::operator=(Segmenter&&) noexcept = default;
 
-// The planes of a still room do not move: look for them now and then, and when the floor is no longer where it was.
-void Segmenter::Impl::updatePlanes() {
-  bool due = frames_since_planes < 0 || ++frames_since_planes >= config.plane_interval;
-  if (!due && planes.floor) {
-    due = floorShare(cloud, *planes.floor, config.floor_distance_m) < kFloorMovedShare * floor_share_when_found;
+// The floor of a still room does not move: look for it now and then, and when it is no longer where it was. People who
+// stand in its way are no reason to forget it.
+void Segmenter::Impl::updateFloor() {
+  const auto share = [&] { return floorShare(cloud, floor->plane, config.floor_distance_m); };
+  const bool holds = floor && share() >= kFloorMovedShare * floor_share_when_found;
+  const bool due = frames_since_floor < 0 || ++frames_since_floor >= config.plane_interval;
+  if (!due && (holds || !floor)) return;
+  frames_since_floor = 0;
+  const std::optional<Floor> found = floor_finder.find(cloud, evidence.shell(), config.floor_distance_m);
+  if (!found && holds) return;
+  floor = found;
+  floor_share_when_found = floor ? share() : 0;
+}
+
+// Assigns identities in the present frame. Who may be anybody is not known any more.
+void Segmenter::Impl::recallPeople(const ExpectedPeople& expected) {
+  people.resize(expected.size());
+  bool anybody_known = false;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const bool is_new = !expected[i] || std::isinf(expected[i]->unseen_s);
+    if (is_new) memory.forget(static_cast<Identity>(i + 1));
+    if (!expected[i]) people[i] = {};
+    anybody_known |= !is_new;
   }
-  if (!due) return;
-  plane_finder.find(cloud, config.floor_distance_m, planes);
-  floor_share_when_found = planes.floor ? floorShare(cloud, *planes.floor, config.floor_distance_m) : 0;
-  frames_since_planes = 0;
-}
-
-void Segmenter::Impl::removeRoom() {
-  updatePlanes();
-  keepOffPlanes(cloud, planes, config.floor_distance_m, keep);
-  const Eigen::Vector3f up = upwards();
-  finder.find(cloud, keep, config.cluster_gap_m, up, known);
-  computeNormals(cloud, keep, normals);
-  measureBoxShares(normals, finder, up, box_shares);
-}
-
-// Assigns identities in the present frame. Surface that appears anew where the hidden actor is expected is the actor's,
-// also where it touches another person.
-void Segmenter::Impl::recallPeople(const ExpectedActor* expected) {
-  if (expected == nullptr || std::isinf(expected->unseen_s)) memory.forget();
+  if (!anybody_known) memory.forgetAll();
   memory.recall(cloud, known);
-  if (expected == nullptr || actor_plain || expected->unseen_s > kSurelyThere_s) return;
-  const Eigen::Vector3f up = upwards();
-  const Eigen::Vector3f trunk = expected->p_camera.cast<float>();
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i] != Identity::Unknown || cloud.points[i].z() <= 0) continue;
-    const Eigen::Vector3f d = cloud.points[i] - trunk;
-    if ((d - up.dot(d) * up).squaredNorm() < kTrunk_m * kTrunk_m) known[i] = Identity::Actor;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (expected[i] && !people[i].plain && expected[i]->unseen_s <= kSurelyThere_s) {
+      recallHidden(*expected[i], static_cast<Identity>(i + 1));
+    }
   }
 }
 
-Choice Segmenter::Impl::chooseActor(const DepthImage& depth, const ExpectedActor* expected, bool cut_out) {
+// Surface that appears anew where a hidden person is expected is that person's, also where it touches another.
+void Segmenter::Impl::recallHidden(const ExpectedActor& expected, Identity who) {
+  const Eigen::Vector3f up = upwards();
+  const Eigen::Vector3f trunk = expected.p_camera.cast<float>();
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i] != kUnknown || cloud.points[i].z() <= 0) continue;
+    const Eigen::Vector3f d = cloud.points[i] - trunk;
+    if ((d - up.dot(d) * up).squaredNorm() < kTrunk_m * kTrunk_m) known[i] = who;
+  }
+}
+
+void Segmenter::Impl::removeRoom(const RoomMap& map) {
+  evidence.find(cloud, map, known, config.cluster_gap_m);
+  updateFloor();
+  keepOffFloor(cloud, floor, config.floor_distance_m, off_floor);
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = off_floor[i] != 0 && evidence.odds()[i] > 0 ? 1 : 0;
+  finder.find(cloud, keep, config.cluster_gap_m, upwards(), known);
+  splitter.split(cloud, upwards(), known, finder);
+  weighComponents();
+}
+
+// Whether the background was removed; then the pieces are found. What was so is looked at again now and then only.
+bool Segmenter::Impl::findCutOut(const RoomLook& look) {
+  if (!isSparse(cloud)) return false;
+  keep.assign(cloud.points.size(), 1);
+  finder.find(cloud, keep, config.cluster_gap_m, Eigen::Vector3f(0, -1, 0), known);
+  if (!mayBeCutOut(cloud, finder.components())) return false;
+  if (cut_out && ++frames_since_look < config.plane_interval) return true;
+  frames_since_look = 0;
+  return showsOnlyPeople(look());
+}
+
+// The pieces that may be people's, and how much they look like people.
+void Segmenter::Impl::findComponents(const DepthImage& depth, const RoomLook& look) {
+  cut_out = findCutOut(look);
+  if (cut_out) {
+    off_floor = keep;
+  } else {
+    keep.resize(cloud.points.size());
+    removeRoom(look());
+  }
   const double image_scale = static_cast<double>(depth.data.size()) / kReferencePixels;
-  const ChoiceContext context{cut_out,       config.min_pixels * image_scale / (cloud.stride * cloud.stride),
-                              expected,      usual_score,
-                              usual_area_m2, cut_out ? nullptr : &box_shares};
-  const Choice choice = choosePerson(finder.components(), config, context, scores);
+  const ChoiceContext context{cut_out, config.min_pixels * image_scale / (cloud.stride * cloud.stride),
+                              cut_out ? nullptr : &component_evidence};
+  scoreComponents(finder.components(), config, context, scores);
+  owners.assign(finder.components().size(), kUnknown);
+}
+
+void Segmenter::Impl::weighComponents() {
+  component_evidence.assign(finder.components().size(), 0.0F);
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    const std::int32_t label = finder.labels()[i];
+    if (label != kNoComponent) component_evidence[static_cast<std::size_t>(label)] += evidence.odds()[i];
+  }
+  for (std::size_t k = 0; k < component_evidence.size(); ++k) {
+    component_evidence[k] /= static_cast<float>(finder.components()[k].cells);
+  }
+}
+
+Choice Segmenter::Impl::choose(const ExpectedActor* expected, Identity who) {
+  Followed& person = people[who - 1U];
+  const Choice choice =
+      choosePerson(finder.components(), scores, owners, {who, expected, person.usual_score, person.usual_area_m2});
   if (choice.person == kNoComponent) return choice;
-  if (expected == nullptr) usual_area_m2 = 0;
-  const bool is_known = finder.components()[static_cast<std::size_t>(choice.person)].who == Identity::Actor;
-  usual_score = is_known ? usual_score + kUsualRate * (choice.score - usual_score) : choice.score;
+  const bool is_known = finder.components()[static_cast<std::size_t>(choice.person)].who == who;
+  person.usual_score = is_known ? person.usual_score + kUsualRate * (choice.score - person.usual_score) : choice.score;
   return choice;
 }
 
-double Segmenter::Impl::visibleShare() {
+// The pieces of one person, in `selected`; from now on they are nobody else's.
+void Segmenter::Impl::take(const Choice& choice, Identity who) {
+  Followed& person = people[who - 1U];
+  selected.assign(finder.components().size(), 0);
+  if (choice.person != kNoComponent) {
+    joiner.join(cloud, finder, choice.person, who, cut_out, person.company_frames > 0, owners, selected);
+  }
+  for (std::size_t k = 0; k < selected.size(); ++k) {
+    if (selected[k] != 0) owners[k] = who;
+  }
+}
+
+double Segmenter::Impl::visibleShare(Followed& person) {
   float area = 0;
   for (std::size_t k = 0; k < selected.size(); ++k) area += selected[k] != 0 ? finder.components()[k].area_m2 : 0.0F;
-  const bool hidden = isPartlyHidden(cloud, keep, finder.labels(), selected);
-  if (usual_area_m2 <= 0) {
-    usual_area_m2 = area;
+  const bool hidden = isPartlyHidden(cloud, off_floor, finder.labels(), selected);
+  if (person.usual_area_m2 <= 0) {
+    person.usual_area_m2 = area;
   } else if (!hidden && area > 0) {
-    usual_area_m2 += kUsualRate * (area - usual_area_m2);
+    person.usual_area_m2 += kUsualRate * (area - person.usual_area_m2);
   }
-  return hidden && area > 0 ? std::min(1.0, static_cast<double>(area / usual_area_m2)) : 1.0;
+  return hidden && area > 0 ? std::min(1.0, static_cast<double>(area / person.usual_area_m2)) : 1.0;
 }
 
-// A component that could have been chosen and was not is another person from now on, as are things that people lean on;
-// but not while the actor is hidden, who may be just that one. A piece that was joined by its place alone may be the
-// first of somebody who comes: it stays unknown.
-void Segmenter::Impl::rememberPeople(const Choice& choice) {
+// A component that could have been chosen and was not is somebody else's from now on; but not while one of those who
+// are followed is hidden, who may be just that one. A piece that was joined by its place alone may be the first of
+// somebody who comes: it stays unknown.
+void Segmenter::Impl::rememberPeople() {
   const std::vector<Component>& components = finder.components();
-  identities.assign(components.size(), Identity::Unknown);
+  const bool all_plain = std::ranges::all_of(people, [](const Followed& person) { return person.plain; });
   for (std::size_t k = 0; k < components.size(); ++k) {
     const Component& c = components[k];
-    const bool is_other = c.who == Identity::Other || (actor_plain && (scores[k] > 0 || c.area_m2 > kLargeThing_m2));
-    if (static_cast<std::int32_t>(k) == choice.person || (selected[k] != 0 && c.who == Identity::Actor)) {
-      identities[k] = Identity::Actor;
-    } else if (selected[k] == 0 && is_other && c.who != Identity::Actor) {
-      identities[k] = Identity::Other;
+    if (owners[k] != kUnknown) {
+      const bool is_main = choices[owners[k] - 1U].person == static_cast<std::int32_t>(k);
+      if (!is_main && c.who != owners[k]) owners[k] = kUnknown;
+    } else if (c.who == kSomebodyElse || (c.who == kUnknown && all_plain && scores[k] > 0)) {
+      owners[k] = kSomebodyElse;
     }
   }
-  memory.remember(cloud, finder.labels(), identities);
+  memory.remember(cloud, finder.labels(), owners);
 }
 
-void Segmenter::Impl::noteCompany(const Choice& choice) {
-  company_frames = std::max(0, company_frames - 1);
+void Segmenter::Impl::noteCompany(const Choice& choice, Identity who) {
+  Followed& person = people[who - 1U];
+  person.company_frames = std::max(0, person.company_frames - 1);
   if (choice.person == kNoComponent) return;
   const std::vector<Component>& components = finder.components();
-  const Eigen::Vector3f actor = components[static_cast<std::size_t>(choice.person)].mean;
+  const Eigen::Vector3f here = components[static_cast<std::size_t>(choice.person)].mean;
   for (std::size_t k = 0; k < components.size(); ++k) {
-    const bool is_somebody = identities[k] == Identity::Other && scores[k] > kCompanyLooks * usual_score;
-    if (is_somebody && (components[k].mean - actor).norm() < kCompany_m) company_frames = kCompanyFrames;
+    const bool is_another = owners[k] != kUnknown && owners[k] != who;
+    const bool is_somebody = is_another && scores[k] > kCompanyLooks * person.usual_score;
+    if (is_somebody && (components[k].mean - here).norm() < kCompany_m) person.company_frames = kCompanyFrames;
   }
 }
 
 void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& camera, PersonRegion& out) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  out.pixel_count = 0;
+  out.touches_border = false;
+  out.centroid_camera.setZero();
   for (int y = 0; y < depth.height; ++y) {
     for (int x = 0; x < depth.width; ++x) {
       if (out.mask.at(x, y) == 0) continue;
@@ -213,39 +302,40 @@ void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& came
   if (out.pixel_count > 0) out.centroid_camera = sum / out.pixel_count;
 }
 
-void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, const ExpectedActor* expected,
-                        Segmentation& out) {
+void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, const RoomLook& look,
+                        const ExpectedPeople& expected, Segmentation& out) {
   DMC_CHECK(depth.width == camera.width && depth.height == camera.height && !depth.empty());
+  DMC_CHECK(!expected.empty() && expected.size() <= kMostPeople);
   Impl& s = *impl_;
-  PersonRegion& actor = out.actor();
-  actor.pixel_count = 0;
-  actor.touches_border = false;
-  actor.centroid_camera.setZero();
-  out.floor_camera.reset();
-
   buildCoarseCloud(depth, camera, s.config.min_depth_m, s.config.max_depth_m, s.cloud);
   s.recallPeople(expected);
-  s.keep.assign(s.cloud.points.size(), 1);
-  s.finder.find(s.cloud, s.keep, s.config.cluster_gap_m, Eigen::Vector3f(0, -1, 0), s.known);
-  const bool cut_out = looksCutOut(s.cloud, s.finder.components());
-  if (!cut_out) s.removeRoom();
-
-  const Choice choice = s.chooseActor(depth, expected, cut_out);
-  s.selected.assign(s.finder.components().size(), 0);
-  if (choice.person != kNoComponent)
-    s.joiner.join(s.cloud, s.finder, choice.person, cut_out, s.company_frames > 0, s.selected);
-  actor.visible_share = s.visibleShare();
-  s.actor_plain = choice.sure && actor.visible_share >= kPlain;
-  s.rememberPeople(choice);
-  s.noteCompany(choice);
+  s.findComponents(depth, look);
 
   RefineLimits limits{
       s.config.min_depth_m, s.config.max_depth_m, s.config.cluster_gap_m, s.config.floor_distance_m, {}};
-  if (!cut_out) limits.floor = s.planes.floor;
+  if (!s.cut_out && s.floor) limits.floor = s.floor->plane;
+  out.floor_camera.reset();
   if (limits.floor) out.floor_camera = limits.floor->cast<double>();
-  out.floor_area_m2 = limits.floor ? static_cast<double>(s.planes.floor_area_m2) : 0.0;
-  refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, actor.mask);
-  s.summarise(depth, camera, actor);
+  out.floor_area_m2 = limits.floor ? static_cast<double>(s.floor->area_m2) : 0.0;
+  out.people.resize(expected.size());
+  s.choices.assign(expected.size(), {});
+  // First those who are known, then who may be anybody.
+  for (const bool anybody : {false, true}) {
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      if (expected[i].has_value() == anybody) continue;
+      const auto who = static_cast<Identity>(i + 1);
+      PersonRegion& region = out.people[i];
+      region.in_room = !s.cut_out;
+      s.choices[i] = s.choose(expected[i] ? &*expected[i] : nullptr, who);
+      s.take(s.choices[i], who);
+      region.visible_share = s.visibleShare(s.people[i]);
+      s.people[i].plain = s.choices[i].sure && region.visible_share >= kPlain;
+      refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, region.mask);
+      s.summarise(depth, camera, region);
+    }
+  }
+  s.rememberPeople();
+  for (std::size_t i = 0; i < expected.size(); ++i) s.noteCompany(s.choices[i], static_cast<Identity>(i + 1));
 }
 
 }  // namespace depthmocap

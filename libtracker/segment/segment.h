@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
 #include "libtracker/core/config_fields.h"
+#include "libtracker/core/room_map.h"
 
 namespace depthmocap {
 
@@ -18,29 +20,38 @@ struct SegmentConfig {
   double min_height_m = 0.5;       // [m] (> 0) a person's cluster is at least this tall, unless cut by the image border
   double max_height_m = 2.4;       // [m] (> min_height_m)
   int min_pixels = 400;            // [px] (>= 1) at 320x240; scaled with the image
-  int plane_interval = 30;         // [frames] (>= 1) the floor and the walls are looked for again after so many
+  int plane_interval = 30;         // [frames] (>= 1) the floor is looked for again after so many
   std::vector<ConfigField> fields();
   void validate() const;  // throws Error naming field, value and rule
 };
 
-// Where the actor is expected, who is known from the frames before or was pointed at.
+// Where somebody is expected who is known from the frames before or was pointed at.
 struct ExpectedActor {
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  // [m] middle of the trunk
-  double unseen_s = 0;  // [s] (>= 0) since the actor was last seen; infinite: has not been seen, somebody near is meant
+  double unseen_s =
+      0;  // [s] (>= 0) since the person was last seen; infinite: has not been seen, somebody near is meant
 };
+
+// Who is expected in an image: one entry for each person that is followed, none for one who may be anybody.
+using ExpectedPeople = std::vector<std::optional<ExpectedActor>>;
+inline constexpr int kMostPeople = 6;
+
+// Asks the room classifier about the present image. Valid until the next image.
+using RoomLook = std::function<const RoomMap&()>;
 
 // One person's part of the image.
 struct PersonRegion {
   MaskImage mask;       // 1 on the person; nobody = all 0
   int pixel_count = 0;  // [px] in the mask
   bool touches_border = false;
+  bool in_room = false;      // the background is in the image, too
   double visible_share = 1;  // (0, 1] of what is usually in view; below 1 where something nearer covers a part
   Eigen::Vector3d centroid_camera = Eigen::Vector3d::Zero();  // [m]
 };
 
 // The people of one image and the floor they stand on.
 struct Segmentation {
-  std::vector<PersonRegion> people{1};          // the actor first; never empty, a region of no pixels is nobody
+  std::vector<PersonRegion> people{1};          // one for each that is followed; a region of no pixels is nobody
   std::optional<Eigen::Vector4d> floor_camera;  // plane n.p + d = 0, |n| = 1, n away from the floor (up); if seen
   double floor_area_m2 = 0;                     // of it in view, when it was last looked for
 
@@ -48,13 +59,14 @@ struct Segmentation {
   [[nodiscard]] const PersonRegion& actor() const { return people.front(); }
 };
 
-// Finds the actor's pixels. A recording whose background is already removed is recognised (see looksCutOut) and keeps
-// all of one person; otherwise floor and walls (RANSAC planes, PCL) are removed, what is left is clustered, and the
-// cluster most like a person is taken. From then on that one is followed: who is the actor and who is not is carried
-// from frame to frame, so that people who touch stay apart, and nobody else is taken while the actor is hidden; then
-// somebody who appears where the actor is expected is taken for the actor. Detached pieces that fit (a hand before the
-// body, a leg behind an arm) join the actor. Floor and walls are kept from frame to frame: one object per recording,
-// frames in order; the result depends on nothing else. The camera is upright within 30 degrees. Not thread-safe.
+// Finds people's pixels: those of one actor, or of several. A recording whose background is already removed is
+// recognised (see mayBeCutOut); otherwise the floor (a RANSAC plane, PCL) and what does not look like people to the
+// room classifier is removed. What is left is clustered, and clusters most like people are taken. From then on those
+// are followed: who is who is carried from frame to frame, so that people who touch stay apart, and nobody else is
+// taken while somebody is hidden; then somebody who appears where the hidden one is expected is taken for that one.
+// Detached pieces that fit (a hand before the body, a leg behind an arm) join their person. The floor is kept from
+// frame to frame: one object per recording, frames in order; the result depends on nothing else. The camera is upright
+// within 30 degrees. Not thread-safe.
 class Segmenter {
  public:
   // Throws Error for an invalid config.
@@ -63,9 +75,13 @@ class Segmenter {
   Segmenter(Segmenter&&) noexcept;
   Segmenter& operator=(Segmenter&&) noexcept;
 
-  // `depth` has the camera's size. `expected` null: anybody may be the actor, and who was who is forgotten. Reuses the
-  // memory of `out`.
-  void segment(const DepthImage& depth, const CameraModel& camera, const ExpectedActor* expected, Segmentation& out);
+  // `depth` has the camera's size; `look` says what the room classifier says of it, and is not called
+  // where the background was removed a moment ago. `expected` (1 .. kMostPeople): each is
+  // looked for, in this order; who may be anybody is taken from those who are left, the plainest first, and a place
+  // whose person changes must be "anybody" in between: then who was there is forgotten. out.people has as many, in the
+  // same order. Reuses the memory of `out`.
+  void segment(const DepthImage& depth, const CameraModel& camera, const RoomLook& look, const ExpectedPeople& expected,
+               Segmentation& out);
 
  private:
   struct Impl;

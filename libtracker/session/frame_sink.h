@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/tracked_frame.h"
@@ -22,10 +23,11 @@ struct SessionStatus {
 
 // One frame on its way out of a session.
 struct SessionFrame {
-  std::size_t index;            // of the frame in its recording; of a camera: how many came before
-  const DepthFrame& depth;      // as the tracker saw it
-  const TrackedFrame& tracked;  // after look-ahead and smoothing
-  double fps;                   // [1/s] of the tracker at that moment
+  std::size_t index;                            // of the frame in its recording; of a camera: how many came before
+  const DepthFrame& depth;                      // as the tracker saw it
+  const TrackedFrame& tracked;                  // after look-ahead and smoothing; of several people the first
+  double fps;                                   // [1/s] of the tracker at that moment
+  std::span<const TrackedFrame* const> people;  // all of them, by their numbers; who is not there is lost
 };
 
 // Receives what a session makes: files, a network stream, a viewer. Called on one thread, frames in order. With a

@@ -1,6 +1,9 @@
 #pragma once
 #include <cstddef>
+#include <deque>
 #include <list>
+#include <span>
+#include <vector>
 
 #include "depthmocap/actor.h"
 #include "depthmocap/depth_frame.h"
@@ -10,32 +13,43 @@
 
 namespace depthmocap {
 
-// Tracked frames wait here for those that follow, and leave with the pose that all of them say together. Poses of one
+// Tracked frames wait here for those that follow, and leave with the poses that all of them say together. Poses of one
 // unbroken track only: a frame without evidence, a pose found anew and a turn of the world are borders.
 class LookAhead {
  public:
+  // One person in a waiting frame.
+  struct Person {
+    TrackedFrame tracked;
+    Actor actor;  // the body in use at that frame
+  };
   struct Frame {
     std::size_t index = 0;  // of the caller
     DepthFrame depth;
-    TrackedFrame tracked;
-    Actor actor;
+    std::vector<Person> people;
   };
   // See LookAheadSmoother; 0 = frames leave as they came, at once.
-  explicit LookAhead(double half_width_s) : smoother_(half_width_s) {}
+  LookAhead(double half_width_s, std::size_t people);
 
-  // `depth`: its memory is exchanged for another frame's. `actor`: the body in use at that frame.
-  void add(std::size_t index, DepthFrame& depth, const TrackedFrame& tracked, const Actor& actor);
+  // Everybody in the next frame, and the bodies in use. `depth`: its memory is exchanged for another frame's.
+  void add(std::size_t index, DepthFrame& depth, std::span<const TrackedFrame* const> people,
+           std::span<const Actor* const> actors);
   // No frame will follow.
-  void finish() { smoother_.finish(); }
+  void finish();
   // The oldest frame that has not left, once it is due; null before. Valid until the next call.
   const Frame* next();
 
  private:
-  LookAheadSmoother smoother_;
+  // The track of one person.
+  struct Lane {
+    LookAheadSmoother smoother;
+    std::deque<Pose> ready;  // poses of the oldest frames that wait
+    TrackState state_before = TrackState::Lost;
+    Eigen::Matrix3d R_world_camera_before = Eigen::Matrix3d::Zero();
+  };
+
+  std::vector<Lane> lanes_;
   std::list<Frame> waiting_;
   std::list<Frame> spare_;  // their memory is used again
-  TrackState state_before_ = TrackState::Lost;
-  Eigen::Matrix3d R_world_camera_before_ = Eigen::Matrix3d::Zero();
   ForwardKinematics fk_;
 };
 

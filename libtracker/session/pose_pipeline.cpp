@@ -5,19 +5,28 @@
 namespace depthmocap {
 
 PosePipeline::PosePipeline(Tracker& tracker, double look_ahead_s, double smooth, RunStats& stats)
-    : tracker_(tracker), looks_ahead_(look_ahead_s > 0), waiting_(look_ahead_s), smoother_(smooth), stats_(stats) {}
+    : tracker_(tracker),
+      looks_ahead_(look_ahead_s > 0),
+      waiting_(look_ahead_s, tracker.people().size()),
+      lanes_(tracker.people().size(), Lane{PoseSmoother(smooth), {}}),
+      leaving_(lanes_.size()),
+      actors_(lanes_.size()),
+      stats_(stats) {}
 
 TrackState PosePipeline::process(std::size_t index, DepthFrame& depth) {
-  const TrackedFrame& tracked = tracker_.process(depth);
-  stats_.addFrame(tracked);
+  const TrackState state = tracker_.process(depth).state;
+  stats_.addFrame(tracker_.people());
   rate_.count();
-  if (!looks_ahead_) {
-    give(index, depth, tracked, tracker_.actor());
-    return tracked.state;
+  for (std::size_t i = 0; i < lanes_.size(); ++i) actors_[i] = &tracker_.actor(tracker_.people()[i]->person);
+  if (looks_ahead_) {
+    waiting_.add(index, depth, tracker_.people(), actors_);
+    passOn();
+    return state;
   }
-  const TrackState state = tracked.state;
-  waiting_.add(index, depth, tracked, tracker_.actor());
-  passOn();
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    leaving_[i] = &smoothed(*tracker_.people()[i], *actors_[i], lanes_[i]);
+  }
+  give(index, depth);
   return state;
 }
 
@@ -31,27 +40,32 @@ void PosePipeline::tell(const SessionStatus& status) {
 }
 
 void PosePipeline::passOn() {
-  while (const LookAhead::Frame* frame = waiting_.next())
-    give(frame->index, frame->depth, frame->tracked, frame->actor);
+  while (const LookAhead::Frame* frame = waiting_.next()) {
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      const LookAhead::Person& person = frame->people[i];
+      leaving_[i] = &smoothed(person.tracked, person.actor, lanes_[i]);
+    }
+    give(frame->index, frame->depth);
+  }
 }
 
-void PosePipeline::give(std::size_t index, const DepthFrame& depth, const TrackedFrame& tracked, const Actor& actor) {
+void PosePipeline::give(std::size_t index, const DepthFrame& depth) {
   const auto start = RateMeter::Clock::now();
-  const SessionFrame frame{index, depth, smoothed(tracked, actor), rate_.perSecond()};
+  const SessionFrame frame{index, depth, *leaving_.front(), rate_.perSecond(), leaving_};
   for (FrameSink* sink : sinks_) sink->onFrame(frame);
   stats_.addWrite(millisecondsSince(start));
 }
 
-const TrackedFrame& PosePipeline::smoothed(const TrackedFrame& tracked, const Actor& actor) {
-  if (!smoother_.on()) return tracked;
+const TrackedFrame& PosePipeline::smoothed(const TrackedFrame& tracked, const Actor& actor, Lane& lane) {
+  if (!lane.smoother.on()) return tracked;
   if (tracked.state == TrackState::Lost) {
-    smoother_.reset();
+    lane.smoother.reset();
     return tracked;
   }
-  if (tracked.R_world_camera != smoothed_.R_world_camera) smoother_.reset();
-  smoothed_ = tracked;
-  setPose(smoother_.smooth(tracked.q, tracked.time_s), actor, fk_, smoothed_);
-  return smoothed_;
+  if (tracked.R_world_camera != lane.smoothed.R_world_camera) lane.smoother.reset();
+  lane.smoothed = tracked;
+  setPose(lane.smoother.smooth(tracked.q, tracked.time_s), actor, fk_, lane.smoothed);
+  return lane.smoothed;
 }
 
 }  // namespace depthmocap

@@ -26,15 +26,21 @@ class PosePipeline {
   [[nodiscard]] double fps() { return rate_.perSecond(); }
 
  private:
+  // One person on the way out.
+  struct Lane {
+    PoseSmoother smoother;
+    TrackedFrame smoothed;
+  };
   void passOn();
-  void give(std::size_t index, const DepthFrame& depth, const TrackedFrame& tracked, const Actor& actor);
-  const TrackedFrame& smoothed(const TrackedFrame& tracked, const Actor& actor);
+  void give(std::size_t index, const DepthFrame& depth);
+  const TrackedFrame& smoothed(const TrackedFrame& tracked, const Actor& actor, Lane& lane);
 
   Tracker& tracker_;
   const bool looks_ahead_;
   LookAhead waiting_;
-  PoseSmoother smoother_;
-  TrackedFrame smoothed_;
+  std::vector<Lane> lanes_;
+  std::vector<const TrackedFrame*> leaving_;  // the people of the frame that leaves
+  std::vector<const Actor*> actors_;          // the bodies in use, one per person
   ForwardKinematics fk_;
   RunStats& stats_;
   RateMeter rate_;

@@ -41,15 +41,26 @@ double peakRssMb() {
 
 }  // namespace
 
-void RunStats::addFrame(const TrackedFrame& frame) {
+void RunStats::addFrame(std::span<const TrackedFrame* const> people) {
   ++frames_;
-  tracked_ += frame.state == TrackState::Tracking ? 1 : 0;
-  coasting_ += frame.state == TrackState::Coasting ? 1 : 0;
-  lost_ += frame.state == TrackState::Lost ? 1 : 0;
-  reinitialised_ += frame.reinitialised ? 1 : 0;
-  stature_m_ = frame.stature_m;
-  for (std::size_t i = 0; i < kStages.size(); ++i) stages_[i].add(frame.ms.*kStages[i].second);
-  iterations_ += static_cast<std::uint64_t>(frame.solver_iterations);
+  TrackState state = TrackState::Lost;
+  StageTimes ms;
+  bool fresh = false;
+  tracked_people_.resize(people.size());
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const TrackedFrame& person = *people[i];
+    if (person.state == TrackState::Tracking || state == TrackState::Lost) state = person.state;
+    tracked_people_[i] += person.state == TrackState::Tracking ? 1 : 0;
+    fresh |= person.reinitialised;
+    iterations_ += static_cast<std::uint64_t>(person.solver_iterations);
+    for (const auto& stage : kStages) ms.*stage.second += person.ms.*stage.second;
+  }
+  tracked_ += state == TrackState::Tracking ? 1 : 0;
+  coasting_ += state == TrackState::Coasting ? 1 : 0;
+  lost_ += state == TrackState::Lost ? 1 : 0;
+  reinitialised_ += fresh ? 1 : 0;
+  stature_m_ = people.front()->stature_m;
+  for (std::size_t i = 0; i < kStages.size(); ++i) stages_[i].add(ms.*kStages[i].second);
 }
 
 void RunStats::write(const std::filesystem::path& path, double wall_s, bool adapted) const {
@@ -71,6 +82,7 @@ void RunStats::write(const std::filesystem::path& path, double wall_s, bool adap
       {"size_adapted", adapted},
       {"peak_rss_mb", peakRssMb()},
       {"version", DEPTHMOCAP_VERSION}};
+  if (tracked_people_.size() > 1) stats["tracked_people"] = tracked_people_;
   if (live_) stats["live"] = liveSummary(*live_);
   writeFileAtomically(path, stats.dump(2) + "\n");
 }

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "depthmocap/tracked_frame.h"
 #include "libtracker/session/durations.h"
@@ -16,7 +18,8 @@ inline constexpr std::size_t kStageCount = 6;  // of StageTimes
 class RunStats {
  public:
   explicit RunStats(Durations::Keep keep = Durations::Keep::All) : read_(keep), write_(keep) {}
-  void addFrame(const TrackedFrame& frame);
+  // Everybody in one frame (not empty). A frame is tracked where anybody is; times are the sum over the people.
+  void addFrame(std::span<const TrackedFrame* const> people);
   void addRead(double ms) { read_.add(ms); }
   void addWrite(double ms) { write_.add(ms); }
   void addUnreadable() { ++unreadable_; }
@@ -34,7 +37,8 @@ class RunStats {
   std::size_t coasting_ = 0;
   std::size_t reinitialised_ = 0;
   std::size_t unreadable_ = 0;
-  double stature_m_ = 0;
+  double stature_m_ = 0;                     // of the first person
+  std::vector<std::size_t> tracked_people_;  // frames, one per person
   std::optional<LiveFigures> live_;
   std::uint64_t iterations_ = 0;  // of the solver
   Durations read_;

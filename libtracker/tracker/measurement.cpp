@@ -5,7 +5,7 @@
 namespace depthmocap {
 
 void TrackerMeasurement::setMarkers(Tracker& tracker, const std::optional<MarkerSet>& markers_camera) {
-  tracker.impl_->observer.overrideMarkers(markers_camera);
+  tracker.impl_->people.front()->observer.overrideMarkers(markers_camera);
 }
 
 }  // namespace depthmocap

@@ -2,6 +2,7 @@
 
 #include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
+#include "libtracker/classify/room_classifier.h"
 #include "libtracker/core/shipped_files.h"
 #include "libtracker/posedb/pose_database.h"
 
@@ -15,6 +16,7 @@ Models Models::load(const std::filesystem::path& forest, const std::filesystem::
   Models models;
   models.classifier =
       std::make_shared<const ForestClassifier>(loadForest(forest.empty() ? shippedFile("general.forest") : forest));
+  models.room = std::make_shared<const RoomClassifier>(loadRoomNetwork(shippedFile("rooms.network")));
   models.database = std::make_shared<const PoseDatabase>(
       loadPoseDatabase(pose_database.empty() ? shippedFile("default.posedb") : pose_database));
   return models;

@@ -39,14 +39,8 @@ Observer::Observer(std::shared_ptr<const PartClassifier> classifier, const Camer
       camera_(camera),
       config_(forCamera(config.classify, config.threads, camera)),
       expect_sides_(config.policy.expect_sides),
-      segmenter_(config.segment),
       memory_(classifier_->newMemory()),
       finder_(config.markers) {}
-
-const Segmentation& Observer::segment(const DepthFrame& frame, const Prediction& prediction) {
-  segmenter_.segment(frame.depth, camera_, prediction.actor ? &*prediction.actor : nullptr, segmentation_);
-  return segmentation_;
-}
 
 void Observer::label(const DepthFrame& frame, const PersonRegion& actor, const Prediction& prediction,
                      Evidence& evidence) {

@@ -3,6 +3,7 @@
 
 #include "depthmocap/camera_model.h"
 #include "depthmocap/depth_frame.h"
+#include "libtracker/classify/part_classifier.h"
 #include "libtracker/markers/find_markers.h"
 #include "libtracker/segment/segment.h"
 #include "libtracker/tracker/evidence.h"
@@ -11,13 +12,11 @@
 
 namespace depthmocap {
 
-// From an image to evidence: who is there (segmentation), (1) parts, (2) markers, samples of the surface.
+// From a person's pixels to evidence: (1) parts, (2) markers, samples of the surface.
 class Observer {
  public:
   Observer(std::shared_ptr<const PartClassifier> classifier, const CameraModel& camera, const TrackerConfig& config);
 
-  // The actor's pixels and the floor. Valid until the next call.
-  const Segmentation& segment(const DepthFrame& frame, const Prediction& prediction);
   // (1) a body part for each pixel of the actor; the pose before helps to tell left from right.
   void label(const DepthFrame& frame, const PersonRegion& actor, const Prediction& prediction, Evidence& evidence);
   // (2) one marker for each part, and samples of the surface. Markers are expected where the prediction has them; null:
@@ -40,8 +39,6 @@ class Observer {
   const CameraModel camera_;
   ClassifyConfig config_;
   const bool expect_sides_;
-  Segmenter segmenter_;
-  Segmentation segmentation_;
   std::unique_ptr<PartClassifier::Memory> memory_;
   MarkerFinder finder_;
   std::optional<MarkerSet> known_markers_;

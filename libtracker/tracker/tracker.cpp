@@ -13,6 +13,7 @@ namespace {
 void checkModels(const Models& models) {
   const char* advice = "take Models::shipped(), or Models::load() with files of your own";
   if (!models.classifier) throw Error("the part classifier is missing", "Models", advice);
+  if (!models.room) throw Error("the room classifier is missing", "Models", advice);
   if (!models.database || models.database->poses.empty()) throw Error("there is no pose in it", "Models", advice);
 }
 
@@ -53,57 +54,72 @@ Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
-const Actor& Tracker::actor() const {
-  return impl_->memory.actor();
+const Actor& Tracker::actor(int person) const {
+  return impl_->person(person).memory.actor();
 }
 
 void Tracker::reset() {
-  impl_->memory.forget(std::nullopt);
+  for (const auto& person : impl_->people) person->memory.forget(std::nullopt);
 }
 
-void Tracker::lockOn(const Eigen::Vector3d& p_camera) {
-  impl_->memory.forget(p_camera);
+void Tracker::lockOn(const Eigen::Vector3d& p_camera, int person) {
+  impl_->person(person).memory.forget(p_camera);
 }
 
-void Tracker::use(const Actor& actor) {
+void Tracker::use(const Actor& actor, int person) {
   checkActor(actor);
-  impl_->memory.use(actor);
+  impl_->person(person).memory.use(actor);
 }
 
-// The method on one page (Su, Chai, Xia 2016); equation numbers as in docs/architecture.md.
+std::span<const TrackedFrame* const> Tracker::people() const {
+  return impl_->found;
+}
+
 const TrackedFrame& Tracker::process(const DepthFrame& frame) {
   Impl& t = *impl_;
-  checkSize(frame, t.observer.camera());
-  StageClock clock(t.out.ms);
-  t.begin(frame);
-  Prediction prediction = t.memory.predict(frame.time_s, t.world.R_world_camera());
+  checkSize(frame, t.scene.camera());
+  StageClock clock(t.people.front()->out.ms);
+  t.predict(frame);
 
-  const Segmentation& seen = t.observer.segment(frame, prediction);
-  if (const auto turn = t.world.observe(seen)) {
-    t.memory.turnWorld(*turn);
-    prediction = t.memory.predict(frame.time_s, t.world.R_world_camera());
-  }
+  // (0) who is where
+  const Segmentation& seen = t.scene.segment(frame, t.expected);
+  if (const auto turn = t.scene.world.observe(seen)) t.turnWorld(*turn, frame);
   clock.lap(&StageTimes::segment);
 
-  // (1) a body part for each pixel
-  t.observer.label(frame, seen.actor(), prediction, t.evidence);
-  clock.lap(&StageTimes::classify);
+  // (1) to (5) the pose of each person
+  for (std::size_t i = 0; i < t.people.size(); ++i) {
+    Person& person = *t.people[i];
+    if (i > 0) clock.follow(person.out.ms);
+    person.track(frame, seen.people[i], t.scene.world, clock);
+  }
+  return t.people.front()->out;
+}
 
-  // (2) one marker for each part
-  t.observer.locate(t.memory.actor().radii_m, &prediction, t.world.R_world_camera(), t.evidence);
-  clock.lap(&StageTimes::markers);
+Tracker::Impl::Impl(const Models& models, const CameraModel& camera, const TrackerConfig& config,
+                    const std::optional<Actor>& given)
+    : scene(models, camera, config), expected(static_cast<std::size_t>(config.people)) {
+  for (int number = 1; number <= config.people; ++number) {
+    people.push_back(std::make_unique<Person>(number, models, camera, config, number == 1 ? given : std::nullopt));
+    found.push_back(&people.back()->out);
+  }
+}
 
-  // (3) nearest poses in the database, (4) local linear model over them
-  if (prediction.has_pose && t.enough(seen.actor())) t.fitter.buildPrior(t.evidence, prediction, t.memory.actor());
-  clock.lap(&StageTimes::prior);
+Person& Tracker::Impl::person(int number) const {
+  if (number >= 1 && static_cast<std::size_t>(number) <= people.size())
+    return *people[static_cast<std::size_t>(number - 1)];
+  throw Error(fmt::format("there is no person {}, {} are tracked", number, people.size()), "Tracker",
+              "people count from 1");
+}
 
-  // (5) maximum a posteriori pose
-  t.fitter.look(frame.depth, seen.actor(), t.observer.camera(), t.world.R_world_camera());
-  const std::optional<Hypothesis> pose = t.fit(seen.actor(), prediction);
-  pose ? t.memory.accept(*pose, prediction, t.world.floor()) : t.memory.miss(prediction);
-  t.report(seen.actor(), pose);
-  clock.lap(&StageTimes::solve);
-  return t.out;
+void Tracker::Impl::predict(const DepthFrame& frame) {
+  for (std::size_t i = 0; i < people.size(); ++i) expected[i] = people[i]->predict(frame, scene.world).actor;
+}
+
+void Tracker::Impl::turnWorld(const Eigen::Matrix3d& R_new_before, const DepthFrame& frame) {
+  for (const auto& person : people) {
+    person->memory.turnWorld(R_new_before);
+    person->predict(frame, scene.world);
+  }
 }
 
 }  // namespace depthmocap

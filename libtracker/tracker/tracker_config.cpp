@@ -31,6 +31,8 @@ std::vector<ConfigField> TrackPolicy::fields() {
   return {
       {"min_markers", &min_markers, "markers", fromTo(1, kPartCount), "Fewer seen markers are not enough for a pose"},
       {"min_visible", &min_visible, "", fromTo(0, 1), "A smaller visible share of the actor is not enough either"},
+      {"min_head", &min_head, "", fromTo(0, 1),
+       "In a room a first pose is not believed if the head's confidence is less"},
       {"max_rms_m", &max_rms_m, "m", above(0), "A worse fit of the seen markers is not believed"},
       {"suspect_rms_m", &suspect_rms_m, "m", above(0), "Above it a global search competes with the tracked pose"},
       {"switch_gain", &switch_gain, "", between(0, 1),
@@ -67,6 +69,7 @@ void TrackerConfig::validate() const {
   surface.validate();
   free_space.validate();
   policy.validate();
+  checkConfig(people >= 1 && people <= kMostPeople, "TrackerConfig", "people", people, "from 1 to 6");
   checkConfig(threads >= 1, "TrackerConfig", "threads", threads, "at least 1");
 }
 

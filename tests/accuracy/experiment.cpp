@@ -154,7 +154,7 @@ void experiment(const ExperimentOptions& o) {
     pipeline.process(i, frame);
   }
   pipeline.finish();
-  outputs.finish(tracker.actor());
+  outputs.finish();
   if (!o.track.stats.empty()) stats.write(o.track.stats, 0, !body);
 }
 

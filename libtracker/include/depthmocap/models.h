@@ -7,11 +7,13 @@
 namespace depthmocap {
 
 class PartClassifier;
+class RoomClassifier;
 struct PoseDatabase;
 
 // The learned models of the tracker. Constant and cheap to copy: trackers on several threads share them.
 struct DEPTHMOCAP_API Models {
   std::shared_ptr<const PartClassifier> classifier;  // which body part a pixel belongs to
+  std::shared_ptr<const RoomClassifier> room;        // where people are in a room
   std::shared_ptr<const PoseDatabase> database;      // poses of people
 
   // The models that come with the library (share/depthmocap). Throws Error saying where they were looked for.

@@ -24,8 +24,9 @@ struct StageTimes {
   double total = 0;
 };
 
-// The result of tracking one frame. Valid until the next call of Tracker::process.
+// The result of tracking one person in one frame. Valid until the next call of Tracker::process.
 struct TrackedFrame {
+  int person = 1;  // number of the person, from 1
   std::int64_t frame = 0;
   double time_s = 0;
   TrackState state = TrackState::Lost;

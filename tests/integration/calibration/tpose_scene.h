@@ -66,6 +66,7 @@ inline std::shared_ptr<const CalibratorModels> shippedModels() {
     const std::filesystem::path source = DEPTHMOCAP_SOURCE_DIR;
     auto loaded = std::make_shared<CalibratorModels>();
     loaded->tpose = std::make_shared<const ForestClassifier>(loadForest(source / "forest/models/tpose.forest"));
+    loaded->room = std::make_shared<const RoomClassifier>(loadRoomNetwork(source / "forest/models/rooms.network"));
     loaded->general = std::make_shared<const ForestClassifier>(loadForest(source / "forest/models/general.forest"));
     loaded->space = loadShapeSpace(source / "calibration/models/shape_space.json");
     return loaded;

@@ -53,6 +53,33 @@ TEST(JointsFile, WritesTheGoldenFileByteForByte) {
   EXPECT_EQ(readBytes(folder / "joints.csv"), readBytes(fixture("joints_good")));
 }
 
+TEST(JointsFile, OfSeveralPeopleHasALastColumnAndTheRowsOfOneAreRead) {
+  const TemporaryFolder folder;
+  JointsWriter writer(folder / "joints.csv", FileOf::People);
+  for (std::int64_t frame = 0; frame < 3; ++frame) {
+    for (int person = 1; person <= 2; ++person) {
+      JointsRow row = trackedRow(frame);
+      row.person = person;
+      row.p_camera.setConstant(person);
+      if (frame != 1) writer.write(row);
+    }
+    JointsRow nobody = trackedRow(frame);
+    nobody.state = TrackState::Lost;
+    if (frame == 1) writer.write(nobody);
+  }
+  writer.finish();
+  const std::string text = readBytes(folder / "joints.csv");
+  EXPECT_NE(text.find("right_toe_c,person\n"), std::string::npos);
+  EXPECT_NE(text.find(",0.500,2\n"), std::string::npos);
+  EXPECT_NE(text.find(",,,,0,\n"), std::string::npos) << "nobody has no number";
+  for (int person = 1; person <= 2; ++person) {
+    const auto rows = readJointsFile(folder / "joints.csv", person);
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[1].frame, 2);
+    EXPECT_EQ(rows[1].p_camera(0, 0), person);
+  }
+}
+
 TEST(JointsFile, SaysFileLineAndReasonOfDamage) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"joints_wrong_header", "'left_elbow_x'"},

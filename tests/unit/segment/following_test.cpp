@@ -39,7 +39,7 @@ class Following {
     Image<int> objects;
     const DepthImage depth = scene.render(&objects);
     Masked masked;
-    segmenter_.segment(depth, scene.camera, expected_ ? &*expected_ : nullptr, masked.segmentation);
+    segmenter_.segment(depth, scene.camera, mapOf(objects), {expected_}, masked.segmentation);
     for (std::size_t i = 0; i < objects.data.size(); ++i) {
       const bool in = masked.segmentation.actor().mask.data[i] != 0;
       masked.actor_shown += objects.data[i] == kActor ? 1 : 0;

@@ -23,9 +23,11 @@ void addRoom(TestScene& scene) {
 }
 
 Segmentation segmentOnce(const TestScene& scene) {
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(scene.render(), scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   return result;
 }
 
@@ -36,7 +38,7 @@ TEST(Segment, RemovedBackgroundKeepsEveryPixelOfThePerson) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.999);
   EXPECT_FALSE(result.floor_camera.has_value());
   EXPECT_FALSE(result.actor().touches_border);
@@ -53,7 +55,7 @@ TEST(Segment, ABoardBeforeThePersonIsNotThePersonWhereTheBackgroundIsRemoved) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.9);
 }
 
@@ -65,7 +67,7 @@ TEST(Segment, SpecklesAreDroppedAndThePixelCountIsOfTheMask) {
   for (int i = 0; i < 40; ++i) depth.at(10 + (i * 15) % 600, 20 + i % 2) = 3.0F;
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.999);
   int count = 0;
   for (const auto value : result.actor().mask.data) count += value;
@@ -80,7 +82,7 @@ TEST(Segment, HandCutOffFromTheBodyBelongsToIt) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.999);
 }
 
@@ -96,7 +98,7 @@ TEST(Segment, LegBehindTheOtherBelongsToTheActorInARoom) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
 }
 
@@ -108,7 +110,7 @@ TEST(Segment, NearerOfTwoPeopleIsTheActor) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.99);
 }
 
@@ -121,7 +123,7 @@ TEST(Segment, PredictionSelectsTheOtherPerson) {
   const ExpectedActor expected{kFeet + Eigen::Vector3d(0.75, -0.9, 0.8)};
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, &expected, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {expected}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kOther), 0.99);
 }
 
@@ -133,7 +135,7 @@ TEST(Segment, RoomIsRemovedAndTheFloorFound) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);  // the soles lie within the floor's tolerance
   ASSERT_TRUE(result.floor_camera.has_value());
   EXPECT_LT((result.floor_camera->head<3>() - Eigen::Vector3d(0, -1, 0)).norm(), 0.01);
@@ -153,7 +155,7 @@ TEST(Segment, FloorOfATiltedCamera) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   ASSERT_TRUE(result.floor_camera.has_value());
   EXPECT_LT((result.floor_camera->head<3>() - up).norm(), 0.01);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.93);
@@ -169,7 +171,7 @@ TEST(Segment, CupboardsAndTablesAreNotTheActor) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
 }
 
@@ -213,8 +215,11 @@ TEST(Segment, MovedCameraIsNoticed) {
   after.addPerson(kActor, {0.1, 1.5, 2.6});
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(before.render(), before.camera, nullptr, result);
-  segmenter.segment(after.render(), after.camera, nullptr, result);
+  Image<int> objects;
+  for (const TestScene* scene : {&before, &after}) {
+    const DepthImage depth = scene->render(&objects);
+    segmenter.segment(depth, scene->camera, mapOf(objects), {std::nullopt}, result);
+  }
   ASSERT_TRUE(result.floor_camera.has_value());
   EXPECT_NEAR(result.floor_camera->w(), 1.5, 0.01);
 }
@@ -241,7 +246,7 @@ TEST(Segment, OddImageSizesWork) {
   const DepthImage depth = scene.render(&objects);
   Segmenter segmenter{SegmentConfig{}};
   Segmentation result;
-  segmenter.segment(depth, scene.camera, nullptr, result);
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.995);
 }
 

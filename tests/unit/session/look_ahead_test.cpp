@@ -1,5 +1,6 @@
 #include "libtracker/session/look_ahead.h"
 
+#include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,19 +33,23 @@ class LookAheadFrames : public testing::Test {
 
   // The frames as they leave, with the same numbers and depth as they had.
   std::vector<TrackedFrame> pass(double half_width_s) {
-    LookAhead waiting(half_width_s);
+    LookAhead waiting(half_width_s, 2);
     std::vector<TrackedFrame> left;
     const auto take = [&] {
       while (const LookAhead::Frame* frame = waiting.next()) {
         EXPECT_EQ(frame->index, 100 + left.size());
         EXPECT_EQ(frame->depth.depth.at(0, 0), static_cast<float>(left.size()));
-        left.push_back(frame->tracked);
+        left.push_back(frame->people.front().tracked);
+        EXPECT_EQ(frame->people.back().tracked.q, still_.q) << "the other one stands still";
       }
     };
     DepthFrame depth;
     for (std::size_t i = 0; i < kFrames; ++i) {
       depth.depth.reset(2, 1, static_cast<float>(i));
-      waiting.add(100 + i, depth, frames_[i], actor_);
+      still_.time_s = frames_[i].time_s;
+      const std::array<const TrackedFrame*, 2> people{&frames_[i], &still_};
+      const std::array<const Actor*, 2> actors{&actor_, &actor_};
+      waiting.add(100 + i, depth, people, actors);
       take();
     }
     waiting.finish();
@@ -61,6 +66,7 @@ class LookAheadFrames : public testing::Test {
 
   Actor actor_;
   std::vector<TrackedFrame> frames_;
+  TrackedFrame still_{.person = 2};  // somebody who is not there
 };
 
 TEST_F(LookAheadFrames, StepOfAnUnbrokenTrackIsSmoothedOnBothSides) {

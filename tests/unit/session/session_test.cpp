@@ -10,6 +10,7 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/classify/part_classifier.h"
+#include "libtracker/classify/room_classifier.h"
 #include "libtracker/posedb/pose_database.h"
 #include "libtracker/session/live_session.h"
 #include "libtracker/session/replay_session.h"
@@ -34,6 +35,8 @@ class NoParts : public PartClassifier {
 Models emptyModels() {
   Models models;
   models.classifier = std::make_shared<const NoParts>();
+  models.room = std::make_shared<const RoomClassifier>(
+      loadRoomNetwork(std::string(DEPTHMOCAP_SOURCE_DIR) + "/forest/models/rooms.network"));
   PoseDatabase database;
   database.poses.emplace_back().setZero();
   database.poses.emplace_back().setConstant(0.1F);

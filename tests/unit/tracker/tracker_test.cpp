@@ -1,5 +1,6 @@
 #include "depthmocap/tracker.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -14,6 +15,7 @@
 #include "libtracker/choreography/procedural_motions.h"
 #include "libtracker/classify/forest_classifier.h"
 #include "libtracker/classify/forest_file.h"
+#include "libtracker/classify/room_classifier.h"
 #include "libtracker/posedb_build/build_pose_database.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
@@ -34,6 +36,8 @@ const Models& models() {
     Models made;
     made.classifier = std::make_shared<const ForestClassifier>(
         loadForest(std::string(DEPTHMOCAP_SOURCE_DIR) + "/forest/models/general.forest"));
+    made.room = std::make_shared<const RoomClassifier>(
+        loadRoomNetwork(std::string(DEPTHMOCAP_SOURCE_DIR) + "/forest/models/rooms.network"));
     std::vector<MotionClip> clips;
     for (const char* name : {"walk", "squat", "box"}) {
       for (const std::string& motion : proceduralMotionNames()) {
@@ -153,6 +157,38 @@ TEST(Tracker, LockOnFollowsThePersonThatIsMeant) {
       EXPECT_LT((tracked.joints_camera.col(static_cast<int>(Joint::Spine)) - meant).norm(), 0.3);
     }
   }
+}
+
+TEST(Tracker, SeveralPeopleHaveNumbersAndPosesOfTheirOwn) {
+  constexpr int kShift_px = 150;
+  TrackerConfig config;
+  config.people = 3;
+  Tracker tracker(models(), walk().camera, config);
+  ASSERT_EQ(tracker.people().size(), 3U);
+  std::array<Eigen::Vector3d, 2> first_place;
+  for (std::size_t i = 0; i < 12; ++i) {
+    tracker.process(twice(walk().frames[i], kShift_px));
+    EXPECT_EQ(tracker.people()[2]->state, TrackState::Lost) << "two are there";
+    const Eigen::Vector3d truth = walk().truth[i].p_camera.col(static_cast<int>(Joint::Spine));
+    const Eigen::Vector3d beside = truth + Eigen::Vector3d(kShift_px / walk().camera.fx * truth.z(), 0, 0);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const TrackedFrame& person = *tracker.people()[k];
+      ASSERT_EQ(person.state, TrackState::Tracking) << "frame " << i;
+      EXPECT_EQ(person.person, static_cast<int>(k + 1));
+      const Eigen::Vector3d spine = person.joints_camera.col(static_cast<int>(Joint::Spine));
+      if (i == 0) first_place[k] = spine;
+      EXPECT_LT((spine - first_place[k]).norm(), 0.5) << "numbers stay";
+      EXPECT_LT(std::min((spine - truth).norm(), (spine - beside).norm()), 0.25);
+    }
+    const auto apart = first_place[0] - first_place[1];
+    EXPECT_GT(apart.norm(), 0.5) << "nobody is there twice";
+  }
+}
+
+TEST(Tracker, ThereIsNoPersonBeyondTheLast) {
+  Tracker tracker(models(), walk().camera);
+  EXPECT_THROW(static_cast<void>(tracker.actor(2)), Error);
+  EXPECT_THROW(tracker.lockOn(Eigen::Vector3d::Zero(), 0), Error);
 }
 
 TEST(Tracker, UseChangesTheBodyAndKeepsItsSize) {
@@ -324,8 +360,9 @@ TEST_P(TrackerRefuses, WithAnErrorThatSaysWhatToDo) {
   }
 }
 
-Models without(bool classifier, bool database) {
+Models without(bool classifier, bool database, bool room = false) {
   Models rest = models();
+  if (room) rest.room.reset();
   if (classifier) rest.classifier.reset();
   if (database) rest.database.reset();
   return rest;
@@ -335,6 +372,13 @@ INSTANTIATE_TEST_SUITE_P(
     Tracker, TrackerRefuses,
     testing::Values(Wrong{"NoClassifier", "Models::shipped()", [] { Tracker(without(true, false), CameraModel{}); }},
                     Wrong{"NoDatabase", "Models::shipped()", [] { Tracker(without(false, true), CameraModel{}); }},
+                    Wrong{"NoRoom", "Models::shipped()", [] { Tracker(without(false, false, true), CameraModel{}); }},
+                    Wrong{"TooManyPeople", "people",
+                          [] {
+                            TrackerConfig config;
+                            config.people = kMostPeople + 1;
+                            Tracker(models(), CameraModel{}, config);
+                          }},
                     Wrong{"EmptyDatabase", "Models::shipped()",
                           [] {
                             Models empty = models();

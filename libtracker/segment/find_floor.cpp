@@ -1,4 +1,4 @@
-#include "libtracker/segment/planes.h"
+#include "libtracker/segment/find_floor.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/sac_segmentation.h>
 
-#include "libtracker/segment/surface_shape.h"
+#include "libtracker/segment/surface_normals.h"
 
 namespace depthmocap {
 
@@ -24,12 +24,8 @@ namespace {
 
 // [rad] The promise of Segmenter: the camera is upright within 30 degrees.
 constexpr double kMaxTilt_rad = 30.0 * std::numbers::pi / 180.0;
-// [rad] Greatest angle between a wall and the vertical, which the floor gives where it is seen.
-constexpr double kMaxWallTilt_rad = 10.0 * std::numbers::pi / 180.0;
 // Least cosine between a floor cell's normal and the assumed up: 40 degrees, which are kMaxTilt_rad and noise.
 constexpr float kFloorNormal = 0.77F;
-// Greatest sine of a wall cell's tilt: 20 degrees, which are kMaxWallTilt_rad and noise.
-constexpr float kWallNormal = 0.35F;
 // [points] Most that RANSAC looks at, spread evenly.
 constexpr int kMaxPoints = 2000;
 // [samples] Most that RANSAC draws for one plane.
@@ -44,24 +40,16 @@ constexpr float kOnFloor = 0.93F;
 constexpr double kMinFloorShare = 0.02;
 // [m] Least height of the camera above the floor.
 constexpr float kMinCameraHeight_m = 0.2F;
-// [m^2] Least area in view of a wall; cupboard doors have less.
-constexpr float kMinWallArea_m2 = 1.2F;
-// [m] Least width of a wall.
-constexpr float kMinWallWidth_m = 1.0F;
-// Upright planes tried for walls.
-constexpr int kMaxWallTries = 4;
+// [m^2] Least area in view of a floor: a sofa's arm or a stool has less.
+constexpr float kMinFloorArea_m2 = 0.25F;
+// Share of the measured cells that may lie below a floor: reflections and noise.
+constexpr double kMaxBelowShare = 0.03;
+// Logarithm of the odds from which the room classifier's floor, wall or ceiling may be floor: in doubt, too.
+constexpr float kMinShell = -1.0F;
 // Least cosine between a cell's normal and the plane that it belongs to: 32 degrees.
 constexpr float kAlongPlane = 0.85F;
 // [m] Distance of RANSAC's inliers from the plane: about two standard deviations of the noise at 3 m.
 constexpr double kFitDistance_m = 0.03;
-// [m] Distance from the plane up to which a point is wall, in addition to noise.
-constexpr float kWallDistance_m = 0.06F;
-
-// How far from a wall a point still belongs to it [m]; walls are met at large angles.
-float wallTolerance(float depth_m) {
-  return kWallDistance_m + 2.0F * kDepthNoise_per_m * depth_m * depth_m;
-}
-
 using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
 
 float distanceTo(const Eigen::Vector4f& plane, const Eigen::Vector3f& p) {
@@ -70,40 +58,37 @@ float distanceTo(const Eigen::Vector4f& plane, const Eigen::Vector3f& p) {
 
 }  // namespace
 
-struct PlaneFinder::Impl {
+struct FloorFinder::Impl {
   std::vector<Eigen::Vector3f> normals;
   std::vector<std::size_t> candidates;
-  std::vector<std::uint8_t> keep;
   PclCloud::Ptr points = std::make_shared<PclCloud>();
   pcl::PointIndices inliers;
   pcl::ModelCoefficients coefficients;
 
   template <typename Accept>
   void collect(const CoarseCloud& cloud, Accept&& accept);
-  bool fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis,
-           Eigen::Vector4f& plane);
-  std::optional<Eigen::Vector4f> findFloor(const CoarseCloud& cloud, double distance_m);
+  bool fit(const CoarseCloud& cloud, const Eigen::Vector3f& up, Eigen::Vector4f& plane);
+  std::optional<Eigen::Vector4f> findLowest(const CoarseCloud& cloud, const std::vector<float>& shell,
+                                            double distance_m);
+  [[nodiscard]] double shareBelow(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) const;
   void settle(const CoarseCloud& cloud, double distance_m, Eigen::Vector4f& floor) const;
   [[nodiscard]] float areaOf(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) const;
-  void findWalls(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes);
-  bool boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, Wall& wall) const;
 };
 
-PlaneFinder::PlaneFinder() : impl_(std::make_unique<Impl>()) {
+FloorFinder::FloorFinder() : impl_(std::make_unique<Impl>()) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // PCL prints warnings about samples; libraries do not print
 }
-PlaneFinder::~PlaneFinder() = default;
+FloorFinder::~FloorFinder() = default;
 
 template <typename Accept>
-void PlaneFinder::Impl::collect(const CoarseCloud& cloud, Accept&& accept) {
+void FloorFinder::Impl::collect(const CoarseCloud& cloud, Accept&& accept) {
   candidates.clear();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.points[i].z() > 0 && normals[i].squaredNorm() > 0 && accept(i)) candidates.push_back(i);
   }
 }
 
-bool PlaneFinder::Impl::fit(const CoarseCloud& cloud, int model, double max_angle_rad, const Eigen::Vector3f& axis,
-                            Eigen::Vector4f& plane) {
+bool FloorFinder::Impl::fit(const CoarseCloud& cloud, const Eigen::Vector3f& up, Eigen::Vector4f& plane) {
   const std::size_t step = (candidates.size() + kMaxPoints - 1) / kMaxPoints;
   points->clear();
   for (std::size_t k = 0; k < candidates.size(); k += step) {
@@ -112,13 +97,13 @@ bool PlaneFinder::Impl::fit(const CoarseCloud& cloud, int model, double max_angl
   }
   if (points->size() < 50) return false;
   pcl::SACSegmentation<pcl::PointXYZ> segmentation(false);  // false: PCL's fixed seed
-  segmentation.setModelType(model);
+  segmentation.setModelType(pcl::SACMODEL_PERPENDICULAR_PLANE);
   segmentation.setMethodType(pcl::SAC_RANSAC);
   segmentation.setOptimizeCoefficients(true);
   segmentation.setMaxIterations(kMaxIterations);
   segmentation.setDistanceThreshold(kFitDistance_m);
-  segmentation.setAxis(axis);
-  segmentation.setEpsAngle(max_angle_rad);
+  segmentation.setAxis(up);
+  segmentation.setEpsAngle(kMaxTilt_rad);
   segmentation.setInputCloud(points);
   segmentation.segment(inliers, coefficients);
   if (inliers.indices.size() < 50 || coefficients.values.size() != 4) return false;
@@ -129,7 +114,7 @@ bool PlaneFinder::Impl::fit(const CoarseCloud& cloud, int model, double max_angl
 }
 
 // RANSAC's plane rests on few points: least squares over all candidates near it, weighted by what noise allows.
-void PlaneFinder::Impl::settle(const CoarseCloud& cloud, double distance_m, Eigen::Vector4f& floor) const {
+void FloorFinder::Impl::settle(const CoarseCloud& cloud, double distance_m, Eigen::Vector4f& floor) const {
   for (int round = 0; round < kSettleRounds; ++round) {
     double total = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -155,18 +140,19 @@ void PlaneFinder::Impl::settle(const CoarseCloud& cloud, double distance_m, Eige
 }
 
 // A plane with much below it is a table: look again among what lies below.
-std::optional<Eigen::Vector4f> PlaneFinder::Impl::findFloor(const CoarseCloud& cloud, double distance_m) {
+std::optional<Eigen::Vector4f> FloorFinder::Impl::findLowest(const CoarseCloud& cloud, const std::vector<float>& shell,
+                                                             double distance_m) {
   const Eigen::Vector3f assumed_up(0, -1, 0);
   std::optional<Eigen::Vector4f> floor;
   for (int attempt = 0; attempt < kMaxFloorTries; ++attempt) {
     collect(cloud, [&](std::size_t i) {
       const bool below =
           !floor || distanceTo(*floor, cloud.points[i]) < -3 * floorTolerance(distance_m, *floor, cloud.points[i].z());
-      return below && normals[i].dot(assumed_up) > kFloorNormal;
+      return below && shell[i] >= kMinShell && normals[i].dot(assumed_up) > kFloorNormal;
     });
     if (static_cast<double>(candidates.size()) < kMinFloorShare * cloud.valid_count) break;
     Eigen::Vector4f plane;
-    if (!fit(cloud, pcl::SACMODEL_PERPENDICULAR_PLANE, kMaxTilt_rad, assumed_up, plane)) break;
+    if (!fit(cloud, assumed_up, plane)) break;
     const bool is_below_camera = plane.head<3>().dot(assumed_up) > 0 && plane[3] > kMinCameraHeight_m;
     if (!is_below_camera || floorShare(cloud, plane, distance_m) < kMinFloorShare) break;
     settle(cloud, distance_m, plane);
@@ -176,7 +162,7 @@ std::optional<Eigen::Vector4f> PlaneFinder::Impl::findFloor(const CoarseCloud& c
 }
 
 // What is in view of the floor [m^2].
-float PlaneFinder::Impl::areaOf(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) const {
+float FloorFinder::Impl::areaOf(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) const {
   float area = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3f& p = cloud.points[i];
@@ -188,63 +174,29 @@ float PlaneFinder::Impl::areaOf(const CoarseCloud& cloud, const Eigen::Vector4f&
   return area;
 }
 
-// Ends of the wall: the 1st and 99th hundredth of its points, so that a stray inlier does not lengthen it.
-bool PlaneFinder::Impl::boundWall(const CoarseCloud& cloud, const Eigen::Vector3f& up, Wall& wall) const {
-  const Eigen::Vector3f normal = wall.plane.head<3>();
-  wall.along = up.cross(normal).normalized();
-  std::vector<float> positions;
-  float area = 0;
-  for (const std::size_t i : candidates) {
-    const Eigen::Vector3f& p = cloud.points[i];
-    if (std::abs(distanceTo(wall.plane, p)) > wallTolerance(p.z()) || normals[i].dot(normal) < kAlongPlane) continue;
-    positions.push_back(wall.along.dot(p));
-    area += cloud.areaAcross(p, normal);
+double FloorFinder::Impl::shareBelow(const CoarseCloud& cloud, const Eigen::Vector4f& floor, double distance_m) const {
+  int below = 0;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.z() > 0 && distanceTo(floor, p) < -3 * floorTolerance(distance_m, floor, p.z())) ++below;
   }
-  if (area < kMinWallArea_m2) return false;
-  std::sort(positions.begin(), positions.end());
-  wall.low = positions[positions.size() / 100] - 0.1F;
-  wall.high = positions[positions.size() - 1 - positions.size() / 100] + 0.1F;
-  return wall.high - wall.low > kMinWallWidth_m;
+  return cloud.valid_count > 0 ? static_cast<double>(below) / cloud.valid_count : 0.0;
 }
 
-// A plane too small for a wall (a cupboard's door) is set aside, so that the next try finds what lies beside it.
-void PlaneFinder::Impl::findWalls(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes) {
-  const Eigen::Vector3f up = planes.floor ? Eigen::Vector3f(planes.floor->head<3>()) : Eigen::Vector3f(0, -1, 0);
-  keepOffPlanes(cloud, planes, distance_m, keep);
-  for (int attempt = 0; attempt < kMaxWallTries; ++attempt) {
-    collect(cloud, [&](std::size_t i) { return keep[i] != 0 && std::abs(normals[i].dot(up)) < kWallNormal; });
-    Wall wall;
-    if (!fit(cloud, pcl::SACMODEL_PARALLEL_PLANE, kMaxWallTilt_rad, up, wall.plane)) return;
-    if (boundWall(cloud, up, wall)) planes.walls.push_back(wall);
-    for (const std::size_t i : candidates) {
-      const Eigen::Vector3f& p = cloud.points[i];
-      if (std::abs(distanceTo(wall.plane, p)) <= wallTolerance(p.z())) keep[i] = 0;
-    }
-  }
+std::optional<Floor> FloorFinder::find(const CoarseCloud& cloud, const std::vector<float>& shell, double distance_m) {
+  computeNormals(cloud, impl_->normals);
+  const std::optional<Eigen::Vector4f> plane = impl_->findLowest(cloud, shell, distance_m);
+  if (!plane || impl_->shareBelow(cloud, *plane, distance_m) > kMaxBelowShare) return std::nullopt;
+  const Floor floor{*plane, impl_->areaOf(cloud, *plane, distance_m)};
+  return floor.area_m2 >= kMinFloorArea_m2 ? std::optional(floor) : std::nullopt;
 }
 
-void PlaneFinder::find(const CoarseCloud& cloud, double distance_m, RoomPlanes& planes) {
-  planes.walls.clear();
-  impl_->keep.assign(cloud.points.size(), 1);
-  computeNormals(cloud, impl_->keep, impl_->normals);
-  planes.floor = impl_->findFloor(cloud, distance_m);
-  planes.floor_area_m2 = planes.floor ? impl_->areaOf(cloud, *planes.floor, distance_m) : 0.0F;
-  impl_->findWalls(cloud, distance_m, planes);
-}
-
-void keepOffPlanes(const CoarseCloud& cloud, const RoomPlanes& planes, double distance_m,
-                   std::vector<std::uint8_t>& keep) {
+void keepOffFloor(const CoarseCloud& cloud, const std::optional<Floor>& floor, double distance_m,
+                  std::vector<std::uint8_t>& keep) {
   keep.resize(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3f& p = cloud.points[i];
-    bool off = p.z() > 0;
-    if (off && planes.floor) off = distanceTo(*planes.floor, p) > floorTolerance(distance_m, *planes.floor, p.z());
-    for (const Wall& wall : planes.walls) {
-      if (!off) break;
-      const float t = wall.along.dot(p);
-      off = std::abs(distanceTo(wall.plane, p)) > wallTolerance(p.z()) || t < wall.low || t > wall.high;
-    }
-    keep[i] = off ? 1 : 0;
+    const bool measured = p.z() > 0;
+    keep[i] = measured && (!floor || distanceTo(floor->plane, p) > floorTolerance(distance_m, floor->plane, p.z()));
   }
 }
 

@@ -1,0 +1,25 @@
+#include "libtracker/tracker/scene_observer.h"
+
+namespace depthmocap {
+
+SceneObserver::SceneObserver(const Models& models, const CameraModel& camera, const TrackerConfig& config)
+    : room_(models.room),
+      camera_(camera),
+      range_(config.segment),
+      threads_(config.threads),
+      segmenter_(config.segment) {}
+
+const Segmentation& SceneObserver::segment(const DepthFrame& frame, const ExpectedPeople& expected) {
+  bool looked = false;
+  const RoomLook look = [&]() -> const RoomMap& {
+    if (!looked) {
+      room_->classify(frame.depth, camera_, range_.min_depth_m, range_.max_depth_m, threads_, room_memory_, map_);
+    }
+    looked = true;
+    return map_;
+  };
+  segmenter_.segment(frame.depth, camera_, look, expected, segmentation_);
+  return segmentation_;
+}
+
+}  // namespace depthmocap
