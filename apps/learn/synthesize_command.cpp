@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,7 +31,6 @@ namespace fs = std::filesystem;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::string_view kProcedural = "procedural:";
 constexpr std::string_view kMakeHuman = "makehuman:";
-constexpr double kKinect2Reach_m = 4.3;  // the whole body is within the sensor's 4.5 m
 // Of the average adult: where --height or --weight is not given.
 constexpr double kManStature_m = 1.75;
 constexpr double kWomanStature_m = 1.62;
@@ -120,15 +120,17 @@ BodySurface makeBody(const SynthesizeOptions& o) {
 }
 
 CameraModel cameraOf(const SynthesizeOptions& o, SensorKind sensor) {
-  const bool half_size = o.size == "320x240";
-  const CameraModel camera = sensorCamera(sensor, half_size);
-  const std::string size = fmt::format("{}x{}", camera.width, camera.height);
-  if (!o.size.empty() && o.size != size) {
-    throw CLI::ValidationError("--size",
-                               fmt::format("{} delivers {}, not {}", o.camera,
-                                           sensor == SensorKind::Kinect1 ? "640x480 or 320x240" : "512x424", o.size));
-  }
-  return camera;
+  const CameraModel whole = sensorCamera(sensor);
+  const CameraModel half = sensorCamera(sensor, true);
+  const auto sizeOf = [](const CameraModel& camera) { return fmt::format("{}x{}", camera.width, camera.height); };
+  if (o.size.empty() || o.size == sizeOf(whole)) return whole;
+  // Kinect v2 has no such mode; a half-size image of the others is what decimating programs make.
+  if (o.size == sizeOf(half) && sensor != SensorKind::Kinect2) return half;
+  throw CLI::ValidationError(
+      "--size",
+      fmt::format("{} delivers {}, not {}", o.camera,
+                  sensor == SensorKind::Kinect2 ? sizeOf(whole) : fmt::format("{} or {}", sizeOf(whole), sizeOf(half)),
+                  o.size));
 }
 
 SynthesisConfig configOf(const SynthesizeOptions& o) {
@@ -140,7 +142,7 @@ SynthesisConfig configOf(const SynthesizeOptions& o) {
   config.staging.yaw = o.yaw_deg * kDegree;
   config.staging.distance_m = o.distance_m;
   config.staging.half_view = 0.5 * config.camera.width / config.camera.fx;
-  if (config.sensor == SensorKind::Kinect2) config.staging.max_distance_m = kKinect2Reach_m;
+  config.staging.max_distance_m = namedCamera(config.sensor).reach_m;
   config.staging.camera_height_m = o.camera_height_m;
   config.camera_tilt = o.tilt_deg * kDegree;
   config.seed = o.seed;
@@ -196,12 +198,16 @@ void addBodyOptions(CLI::App& command, SynthesizeOptions& o) {
       ->capture_default_str();
 }
 
+std::vector<std::string> cameraNames() {
+  std::vector<std::string> names;
+  for (const NamedCamera& camera : namedCameras()) names.emplace_back(camera.name);
+  return names;
+}
+
 void addViewOptions(CLI::App& command, SynthesizeOptions& o) {
-  command.add_option("--camera", o.camera, "Sensor")
-      ->check(CLI::IsMember({"kinect1", "kinect2"}))
-      ->capture_default_str();
-  command.add_option("--size", o.size, "Image size: 640x480 or 320x240 (kinect1), 512x424 (kinect2)")
-      ->check(CLI::IsMember({"640x480", "320x240", "512x424"}));
+  command.add_option("--camera", o.camera, "Sensor")->check(CLI::IsMember(cameraNames()))->capture_default_str();
+  command.add_option("--size", o.size, "Image size: the camera's own, or half of it in both directions (not kinect2)")
+      ->type_name("WxH");
   command.add_option("--noise", o.noise, "Noise of the sensor")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();

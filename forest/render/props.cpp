@@ -4,54 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "forest/render/shapes.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 namespace {
 
-constexpr int kRings = 8;
-constexpr int kSectors = 16;
 constexpr double kBoxy = 0.1;  // roundness of what has edges
 
-double signedPower(double value, double exponent) {
-  return std::copysign(std::pow(std::abs(value), exponent), value);
-}
-
-// A superquadric (Barr 1981) about the origin of T_world_thing, `half` [m] its half extents: roundness 1 is an
-// ellipsoid, towards 0 a box.
 void addThing(const Eigen::Isometry3d& T_world_thing, const Eigen::Vector3d& half, double roundness, std::uint8_t part,
               TriangleMesh& mesh) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (int ring = 0; ring <= kRings; ++ring) {
-    const double v = std::numbers::pi * (static_cast<double>(ring) / kRings - 0.5);
-    const double around = signedPower(std::cos(v), roundness);
-    for (int sector = 0; sector < kSectors; ++sector) {
-      const double u = 2.0 * std::numbers::pi * sector / kSectors;
-      const Eigen::Vector3d unit(around * signedPower(std::cos(u), roundness), signedPower(std::sin(v), roundness),
-                                 around * signedPower(std::sin(u), roundness));
-      mesh.vertices.push_back((T_world_thing * half.cwiseProduct(unit)).cast<float>());
-    }
-  }
-  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
-    for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
-      const std::uint32_t a = first + ring * kSectors + sector;
-      const std::uint32_t b = first + ring * kSectors + (sector + 1) % kSectors;
-      mesh.triangles.push_back({a, a + kSectors, b});
-      mesh.triangles.push_back({b, a + kSectors, b + kSectors});
-    }
-  }
-  mesh.part.resize(mesh.triangles.size(), part);
-}
-
-Eigen::Isometry3d placed(const Eigen::Matrix3d& R, const Eigen::Vector3d& p) {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = R;
-  T.translation() = p;
-  return T;
-}
-
-Eigen::Matrix3d aboutY(double angle) {
-  return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  addSuperquadric(mesh, T_world_thing, half, roundness);
+  fillParts(mesh, part);
 }
 
 Eigen::Matrix3d anyRotation(Random& random) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "forest/render/shapes.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/random.h"
 
@@ -18,12 +19,8 @@ constexpr double kSightline_m = 0.6;  // half the width kept free between camera
 constexpr double kWallHeight_m = 2.6;
 constexpr double kBehindCamera_m = 1.0;  // the room reaches so far behind the camera
 
-struct Box {
-  Eigen::Vector3d low;  // [m] in the frame of the piece: x along its front, y up from the floor, z to its front
-  Eigen::Vector3d high;
-};
-
-// A piece of furniture stands on the floor with its middle at the origin of its frame.
+// A piece of furniture stands on the floor with its middle at the origin of its frame: x along its front, y up from the
+// floor, z to its front.
 using Piece = std::vector<Box>;
 
 Piece table(double width, double depth, double height) {
@@ -62,24 +59,6 @@ double radiusOf(const Piece& piece) {
                        box.high.cwiseProduct(Eigen::Vector3d(1, 0, 1)).norm()});
   }
   return radius;
-}
-
-void addQuad(TriangleMesh& mesh, const std::array<Eigen::Vector3d, 4>& corners) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Eigen::Vector3d& corner : corners) mesh.vertices.push_back(corner.cast<float>());
-  mesh.triangles.push_back({first, first + 1, first + 2});
-  mesh.triangles.push_back({first, first + 2, first + 3});
-}
-
-void addBox(TriangleMesh& mesh, const Box& box, const Eigen::Isometry3d& T_world_piece) {
-  const auto corner = [&](int i) {
-    return T_world_piece * Eigen::Vector3d((i & 1) != 0 ? box.high.x() : box.low.x(),
-                                           (i & 2) != 0 ? box.high.y() : box.low.y(),
-                                           (i & 4) != 0 ? box.high.z() : box.low.z());
-  };
-  constexpr std::array<std::array<int, 4>, 6> kFaces = {
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  for (const auto& f : kFaces) addQuad(mesh, {corner(f[0]), corner(f[1]), corner(f[2]), corner(f[3])});
 }
 
 double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
