@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -138,7 +139,7 @@ SynthesisConfig configOf(const SynthesizeOptions& o) {
   config.sensor = *sensorNamed(o.camera);
   config.camera = cameraOf(o, config.sensor);
   config.noise = o.noise == "on";
-  config.scene = o.scene == "room" ? SceneKind::Room : SceneKind::None;
+  config.scene = *sceneNamed(o.scene);
   config.staging.yaw = o.yaw_deg * kDegree;
   config.staging.distance_m = o.distance_m;
   config.staging.half_view = 0.5 * config.camera.width / config.camera.fx;
@@ -150,14 +151,32 @@ SynthesisConfig configOf(const SynthesizeOptions& o) {
   return config;
 }
 
-// Walks through the whole of the own path, also where that leads out of the view.
-Bystander bystanderOf(const SynthesizeOptions& o) {
+// Walks through the whole of the own path, also where that leads out of the view. In the scene `bystander` he keeps
+// clear of the actor, has a body and, unless --second-person says so, a motion of his own, and is in the truth.
+Bystander bystanderOf(const SynthesizeOptions& o, const SynthesisConfig& config) {
   constexpr double kEverywhere = 100.0;
-  Bystander bystander{readMotion(o.second_motion, o), makeBuiltinBody(BodyShape{}), {}};
-  bystander.staging.yaw = o.second_yaw_deg * kDegree;
-  bystander.staging.distance_m = o.second_distance_m;
-  bystander.staging.half_view = kEverywhere;
-  bystander.staging.camera_height_m = o.camera_height_m;
+  constexpr double kApart_m = 0.65;
+  constexpr std::array<std::string_view, 4> kMotions = {"talk", "idle", "walk", "sit_and_talk"};
+  if (config.scene != SceneKind::Bystander) {
+    Bystander bystander{readMotion(o.second_motion, o), makeBuiltinBody(BodyShape{}), {}};
+    bystander.staging.yaw = o.second_yaw_deg * kDegree;
+    bystander.staging.distance_m = o.second_distance_m;
+    bystander.staging.half_view = kEverywhere;
+    bystander.staging.camera_height_m = o.camera_height_m;
+    return bystander;
+  }
+  Random random(o.seed, 1);
+  BodyShape shape;
+  shape.sex = random.uniform() < 0.5 ? Sex::Female : Sex::Male;
+  shape.stature_m = random.uniform(1.5, 1.9);
+  shape.weight_kg = random.uniform(19, 29) * shape.stature_m * shape.stature_m;
+  const std::string motion = std::string(kProcedural) + std::string(kMotions[random.below(kMotions.size())]);
+  Bystander bystander{readMotion(o.second_motion.empty() ? motion : o.second_motion, o), makeBuiltinBody(shape), {}};
+  bystander.staging = config.staging;
+  bystander.staging.yaw = random.uniform(-1.5, 1.5);
+  bystander.staging.distance_m = std::max(1.0, o.distance_m + random.uniform(-0.4, 0.8));
+  bystander.in_truth = true;
+  bystander.apart_m = kApart_m;
   return bystander;
 }
 
@@ -174,7 +193,7 @@ void synthesize(const SynthesizeOptions& o) {
   cutMotion(clip, o.first, o.last);
   config.note = noteOf(o, clip);
   const BodySurface body = makeBody(o);
-  if (!o.second_motion.empty()) config.bystander = bystanderOf(o);
+  if (!o.second_motion.empty() || config.scene == SceneKind::Bystander) config.bystander = bystanderOf(o, config);
   {
     Progress progress("rendering", clip.poses.size());
     synthesizeRecording(clip, body, config, o.out, [&](std::size_t done) { progress.update(done); });
@@ -211,8 +230,10 @@ void addViewOptions(CLI::App& command, SynthesizeOptions& o) {
   command.add_option("--noise", o.noise, "Noise of the sensor")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  command.add_option("--scene", o.scene, "What stands around the actor")
-      ->check(CLI::IsMember({"none", "room"}))
+  command
+      .add_option("--scene", o.scene,
+                  "What stands around the actor: nothing, a few boxes (room), or a furnished room (the others)")
+      ->check(CLI::IsMember(std::vector<std::string>(kSceneNames.begin(), kSceneNames.end())))
       ->capture_default_str();
   command.add_option("--yaw", o.yaw_deg, "Heading in the first frame [deg]; 0 faces the camera, 90 to its right")
       ->capture_default_str();
@@ -255,7 +276,7 @@ void addSynthesizeCommand(CLI::App& app) {
   addSecondPersonOptions(*command, o);
   command->add_option("--first", o.first, "First frame of the motion, from 0")->check(CLI::NonNegativeNumber);
   command->add_option("--last", o.last, "Last frame of the motion")->check(CLI::NonNegativeNumber);
-  command->add_option("--seed", o.seed, "Seed of noise, scene, clothes and procedural motion")->capture_default_str();
+  command->add_option("--seed", o.seed, "Seed of noise, room, clothes and procedural motion")->capture_default_str();
   command->add_option("--threads", o.threads, "Threads; the result does not depend on it")->check(CLI::Range(1, 256));
   command->footer(
       "Example:\n"

@@ -52,7 +52,7 @@ std::optional<StereoNoise> stereoNoiseOf(SensorKind kind) {
       n.dropout = 0.03;
       n.dropout_px = 14.0;
       n.smoothing_px = 3.0;
-      n.fill_px = 20.0;
+      n.fill_px = 40.0;
       return n;
     case SensorKind::D435Raw:
     case SensorKind::D435Hd:
