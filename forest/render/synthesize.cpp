@@ -161,7 +161,8 @@ std::vector<Pose> stageBystander(const Bystander& other, const StagedMotion& act
     return gap;
   };
   for (int i = 0; i < kSteps; ++i) {  // to both sides in turn
-    const double beside = (i % 2 == 0 ? 1 : -1) * kStep_m * (1 + i / 2);
+    const int steps = (i % 2 == 0 ? 1 : -1) * (1 + i / 2);
+    const double beside = kStep_m * steps;
     if (nearest(beside) < other.apart_m) continue;
     for (Pose& q : poses) q[kRootTx] += beside;
     break;
