@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,7 +32,6 @@ namespace fs = std::filesystem;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::string_view kProcedural = "procedural:";
 constexpr std::string_view kMakeHuman = "makehuman:";
-constexpr double kKinect2Reach_m = 4.3;  // the whole body is within the sensor's 4.5 m
 // Of the average adult: where --height or --weight is not given.
 constexpr double kManStature_m = 1.75;
 constexpr double kWomanStature_m = 1.62;
@@ -120,15 +121,17 @@ BodySurface makeBody(const SynthesizeOptions& o) {
 }
 
 CameraModel cameraOf(const SynthesizeOptions& o, SensorKind sensor) {
-  const bool half_size = o.size == "320x240";
-  const CameraModel camera = sensorCamera(sensor, half_size);
-  const std::string size = fmt::format("{}x{}", camera.width, camera.height);
-  if (!o.size.empty() && o.size != size) {
-    throw CLI::ValidationError("--size",
-                               fmt::format("{} delivers {}, not {}", o.camera,
-                                           sensor == SensorKind::Kinect1 ? "640x480 or 320x240" : "512x424", o.size));
-  }
-  return camera;
+  const CameraModel whole = sensorCamera(sensor);
+  const CameraModel half = sensorCamera(sensor, true);
+  const auto sizeOf = [](const CameraModel& camera) { return fmt::format("{}x{}", camera.width, camera.height); };
+  if (o.size.empty() || o.size == sizeOf(whole)) return whole;
+  // Kinect v2 has no such mode; a half-size image of the others is what decimating programs make.
+  if (o.size == sizeOf(half) && sensor != SensorKind::Kinect2) return half;
+  throw CLI::ValidationError(
+      "--size",
+      fmt::format("{} delivers {}, not {}", o.camera,
+                  sensor == SensorKind::Kinect2 ? sizeOf(whole) : fmt::format("{} or {}", sizeOf(whole), sizeOf(half)),
+                  o.size));
 }
 
 SynthesisConfig configOf(const SynthesizeOptions& o) {
@@ -136,11 +139,11 @@ SynthesisConfig configOf(const SynthesizeOptions& o) {
   config.sensor = *sensorNamed(o.camera);
   config.camera = cameraOf(o, config.sensor);
   config.noise = o.noise == "on";
-  config.scene = o.scene == "room" ? SceneKind::Room : SceneKind::None;
+  config.scene = *sceneNamed(o.scene);
   config.staging.yaw = o.yaw_deg * kDegree;
   config.staging.distance_m = o.distance_m;
   config.staging.half_view = 0.5 * config.camera.width / config.camera.fx;
-  if (config.sensor == SensorKind::Kinect2) config.staging.max_distance_m = kKinect2Reach_m;
+  config.staging.max_distance_m = namedCamera(config.sensor).reach_m;
   config.staging.camera_height_m = o.camera_height_m;
   config.camera_tilt = o.tilt_deg * kDegree;
   config.seed = o.seed;
@@ -148,14 +151,32 @@ SynthesisConfig configOf(const SynthesizeOptions& o) {
   return config;
 }
 
-// Walks through the whole of the own path, also where that leads out of the view.
-Bystander bystanderOf(const SynthesizeOptions& o) {
+// Walks through the whole of the own path, also where that leads out of the view. In the scene `bystander` he keeps
+// clear of the actor, has a body and, unless --second-person says so, a motion of his own, and is in the truth.
+Bystander bystanderOf(const SynthesizeOptions& o, const SynthesisConfig& config) {
   constexpr double kEverywhere = 100.0;
-  Bystander bystander{readMotion(o.second_motion, o), makeBuiltinBody(BodyShape{}), {}};
-  bystander.staging.yaw = o.second_yaw_deg * kDegree;
-  bystander.staging.distance_m = o.second_distance_m;
-  bystander.staging.half_view = kEverywhere;
-  bystander.staging.camera_height_m = o.camera_height_m;
+  constexpr double kApart_m = 0.65;
+  constexpr std::array<std::string_view, 4> kMotions = {"talk", "idle", "walk", "sit_and_talk"};
+  if (config.scene != SceneKind::Bystander) {
+    Bystander bystander{readMotion(o.second_motion, o), makeBuiltinBody(BodyShape{}), {}};
+    bystander.staging.yaw = o.second_yaw_deg * kDegree;
+    bystander.staging.distance_m = o.second_distance_m;
+    bystander.staging.half_view = kEverywhere;
+    bystander.staging.camera_height_m = o.camera_height_m;
+    return bystander;
+  }
+  Random random(o.seed, 1);
+  BodyShape shape;
+  shape.sex = random.uniform() < 0.5 ? Sex::Female : Sex::Male;
+  shape.stature_m = random.uniform(1.5, 1.9);
+  shape.weight_kg = random.uniform(19, 29) * shape.stature_m * shape.stature_m;
+  const std::string motion = std::string(kProcedural) + std::string(kMotions[random.below(kMotions.size())]);
+  Bystander bystander{readMotion(o.second_motion.empty() ? motion : o.second_motion, o), makeBuiltinBody(shape), {}};
+  bystander.staging = config.staging;
+  bystander.staging.yaw = random.uniform(-1.5, 1.5);
+  bystander.staging.distance_m = std::max(1.0, o.distance_m + random.uniform(-0.4, 0.8));
+  bystander.in_truth = true;
+  bystander.apart_m = kApart_m;
   return bystander;
 }
 
@@ -172,7 +193,7 @@ void synthesize(const SynthesizeOptions& o) {
   cutMotion(clip, o.first, o.last);
   config.note = noteOf(o, clip);
   const BodySurface body = makeBody(o);
-  if (!o.second_motion.empty()) config.bystander = bystanderOf(o);
+  if (!o.second_motion.empty() || config.scene == SceneKind::Bystander) config.bystander = bystanderOf(o, config);
   {
     Progress progress("rendering", clip.poses.size());
     synthesizeRecording(clip, body, config, o.out, [&](std::size_t done) { progress.update(done); });
@@ -196,17 +217,23 @@ void addBodyOptions(CLI::App& command, SynthesizeOptions& o) {
       ->capture_default_str();
 }
 
+std::vector<std::string> cameraNames() {
+  std::vector<std::string> names;
+  for (const NamedCamera& camera : namedCameras()) names.emplace_back(camera.name);
+  return names;
+}
+
 void addViewOptions(CLI::App& command, SynthesizeOptions& o) {
-  command.add_option("--camera", o.camera, "Sensor")
-      ->check(CLI::IsMember({"kinect1", "kinect2"}))
-      ->capture_default_str();
-  command.add_option("--size", o.size, "Image size: 640x480 or 320x240 (kinect1), 512x424 (kinect2)")
-      ->check(CLI::IsMember({"640x480", "320x240", "512x424"}));
+  command.add_option("--camera", o.camera, "Sensor")->check(CLI::IsMember(cameraNames()))->capture_default_str();
+  command.add_option("--size", o.size, "Image size: the camera's own, or half of it in both directions (not kinect2)")
+      ->type_name("WxH");
   command.add_option("--noise", o.noise, "Noise of the sensor")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  command.add_option("--scene", o.scene, "What stands around the actor")
-      ->check(CLI::IsMember({"none", "room"}))
+  command
+      .add_option("--scene", o.scene,
+                  "What stands around the actor: nothing, a few boxes (room), or a furnished room (the others)")
+      ->check(CLI::IsMember(std::vector<std::string>(kSceneNames.begin(), kSceneNames.end())))
       ->capture_default_str();
   command.add_option("--yaw", o.yaw_deg, "Heading in the first frame [deg]; 0 faces the camera, 90 to its right")
       ->capture_default_str();
@@ -249,7 +276,7 @@ void addSynthesizeCommand(CLI::App& app) {
   addSecondPersonOptions(*command, o);
   command->add_option("--first", o.first, "First frame of the motion, from 0")->check(CLI::NonNegativeNumber);
   command->add_option("--last", o.last, "Last frame of the motion")->check(CLI::NonNegativeNumber);
-  command->add_option("--seed", o.seed, "Seed of noise, scene, clothes and procedural motion")->capture_default_str();
+  command->add_option("--seed", o.seed, "Seed of noise, room, clothes and procedural motion")->capture_default_str();
   command->add_option("--threads", o.threads, "Threads; the result does not depend on it")->check(CLI::Range(1, 256));
   command->footer(
       "Example:\n"

@@ -381,6 +381,40 @@ TriangleMesh drawSeat(double seat_m, Random& random) {
   return mesh;
 }
 
+TriangleMesh drawSeatOf(Furniture kind, double seat_m, Random& random) {
+  TriangleMesh mesh;
+  if (kind == Furniture::Chair) {
+    addChair(mesh, random.uniform(0.38, 0.5), -0.22, random.uniform(0.15, 0.28), seat_m, random);
+  } else if (kind == Furniture::OfficeChair) {
+    addOfficeChair(mesh, seat_m, random);
+  } else if (kind == Furniture::Bed) {
+    addBed(mesh, seat_m, random);
+    float front = 0;
+    for (const Eigen::Vector3f& v : mesh.vertices) front = std::max(front, v.z());
+    for (Eigen::Vector3f& v : mesh.vertices) v.z() -= front - 0.25F;
+  } else {
+    const bool wide = kind == Furniture::Sofa;
+    Sofa sofa = drawSofa(wide ? random.uniform(1.4, 2.4) : random.uniform(0.5, 0.75), seat_m, random);
+    sofa.back = -random.uniform(0.2, 0.32);
+    sofa.front = random.uniform(0.2, 0.38);
+    addSofa(mesh, sofa, random);
+    const auto shift = static_cast<float>(wide ? random.uniform(-0.3, 0.3) * sofa.width : 0.0);
+    for (Eigen::Vector3f& v : mesh.vertices) v.x() += shift;
+  }
+  return mesh;
+}
+
+TriangleMesh drawDesk(double height_m, Random& random) {
+  TriangleMesh mesh;
+  const double x = random.uniform(0.45, 0.9);
+  const double z = random.uniform(0.3, 0.45);
+  const double leg = random.uniform(0.02, 0.04);
+  addLegs(mesh, x - leg, z - leg, height_m, leg);
+  addBlock(mesh, {-x, height_m - random.uniform(0.02, 0.06), -z}, {x, height_m, z}, toss(random) ? kHard : 0.6);
+  addClutter(mesh, 0.9 * x, 0.5 * z, height_m, 4, random);
+  return mesh;
+}
+
 TriangleMesh drawCouch(double top_m, Random& random) {
   TriangleMesh mesh;
   if (toss(random)) {

@@ -36,6 +36,12 @@ TriangleMesh drawFurniture(Furniture kind, Random& random);
 // origin; the seat's front edge is about 0.3 m before it. Height 0.15 .. 0.9 m.
 TriangleMesh drawSeat(double seat_m, Random& random);
 
+// The same of one kind: Sofa, Armchair, Chair, OfficeChair or Bed, which one sits on at its edge.
+TriangleMesh drawSeatOf(Furniture kind, double seat_m, Random& random);
+
+// A table of this height [m] to sit or stand at, with things on it.
+TriangleMesh drawDesk(double height_m, Random& random);
+
 // What somebody lies on, its top `top_m` [m] above the floor, its middle at the origin, long along x.
 TriangleMesh drawCouch(double top_m, Random& random);
 

@@ -1,11 +1,11 @@
 #include "forest/render/sensor_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "forest/render/person_label.h"
 #include "libtracker/core/check.h"
 
 namespace depthmocap {
@@ -174,31 +174,28 @@ void removeSpeckles(const RenderedView& view, const DepthImage& unfiltered, Dept
   }
 }
 
-}  // namespace
-
-std::optional<SensorKind> sensorNamed(std::string_view name) {
-  for (const SensorKind kind : {SensorKind::Kinect1, SensorKind::Kinect2}) {
-    if (sensorName(kind) == name) return kind;
+template <typename T>
+void transpose(const Image<T>& from, Image<T>& to) {
+  to.reset(from.height, from.width, T{});
+  for (int y = 0; y < from.height; ++y) {
+    for (int x = 0; x < from.width; ++x) to.at(y, x) = from.at(x, y);
   }
-  return std::nullopt;
 }
 
-CameraModel sensorCamera(SensorKind kind, bool half_size) {
-  CameraModel camera;
-  camera.width = kind == SensorKind::Kinect1 ? 640 : 512;
-  camera.height = kind == SensorKind::Kinect1 ? 480 : 424;
-  camera.fx = camera.fy = kind == SensorKind::Kinect1 ? 575.8 : 365.0;
-  if (half_size) {
-    camera.width /= 2;
-    camera.height /= 2;
-    camera.fx = camera.fy = camera.fx / 2;
-  }
-  camera.cx = 0.5 * (camera.width - 1);
-  camera.cy = 0.5 * (camera.height - 1);
-  return camera;
+}  // namespace
+
+SensorModel::SensorModel(SensorKind kind) : kind_(kind) {
+  if (const std::optional<StereoNoise> noise = stereoNoiseOf(kind)) stereo.noise = *noise;
 }
 
 RenderOptions SensorModel::renderOptions() const {
+  if (kind_ == SensorKind::Azure) return tof.renderOptions();
+  if (stereoNoiseOf(kind_)) {
+    RenderOptions options = stereo.renderOptions();
+    Eigen::Vector3d& second = *options.p_camera_projector;
+    if (kind_ == SensorKind::D435Portrait) second = Eigen::Vector3d(second.y(), second.x(), second.z());
+    return options;
+  }
   RenderOptions options;
   options.incidence = true;
   if (kind_ == SensorKind::Kinect1) options.p_camera_projector = Eigen::Vector3d(kinect1.baseline_m, 0.0, 0.0);
@@ -207,6 +204,9 @@ RenderOptions SensorModel::renderOptions() const {
 
 void SensorModel::apply(const RenderedView& view, const CameraModel& camera, Random& random, DepthImage& depth,
                         PartImage& parts) {
+  if (kind_ == SensorKind::Azure) return tof.apply(view, camera, random, depth, parts);
+  if (kind_ == SensorKind::D435Portrait) return applyOnItsSide(view, camera, random, depth, parts);
+  if (stereoNoiseOf(kind_)) return stereo.apply(view, camera, random, depth, parts);
   DMC_CHECK(view.incidence.data.size() == view.depth.data.size());
   DMC_CHECK(kind_ == SensorKind::Kinect2 || view.lit.data.size() == view.depth.data.size());
   depth.reset(camera.width, camera.height, 0.0F);
@@ -217,6 +217,22 @@ void SensorModel::apply(const RenderedView& view, const CameraModel& camera, Ran
   } else {
     applyKinect2(view, scale, random, depth, parts);
   }
+}
+
+// Rows of the sensor are columns of the picture. Which way it was turned makes no difference to what is measured.
+void SensorModel::applyOnItsSide(const RenderedView& view, const CameraModel& camera, Random& random, DepthImage& depth,
+                                 PartImage& parts) {
+  transpose(view.depth, turned_.depth);
+  transpose(view.parts, turned_.parts);
+  transpose(view.incidence, turned_.incidence);
+  transpose(view.lit, turned_.lit);
+  CameraModel sensor = camera;
+  std::swap(sensor.width, sensor.height);
+  std::swap(sensor.fx, sensor.fy);
+  std::swap(sensor.cx, sensor.cy);
+  stereo.apply(turned_, sensor, random, turned_depth_, turned_parts_);
+  transpose(turned_depth_, depth);
+  transpose(turned_parts_, parts);
 }
 
 void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& random, DepthImage& depth,
@@ -236,7 +252,7 @@ void SensorModel::applyKinect1(const RenderedView& view, double scale, Random& r
     const float cosine = view.incidence.at(x, y);
     const float drop = dropout_.at(u, v);
     const std::uint8_t part = view.parts.at(x, y);
-    const bool head = part == static_cast<std::uint8_t>(Part::Head);
+    const bool head = partOfPerson(part) == static_cast<std::uint8_t>(Part::Head);
     if (cosine < n.grazing_cos * (1.0 + 0.5 * drop)) return std::nullopt;
     if (head && cosine < n.hair_cos && drop > hair_threshold) return std::nullopt;
     if (drop > edge_threshold && lookAround(view.depth, x, y).edge) return std::nullopt;

@@ -1,23 +1,12 @@
 #pragma once
-#include <optional>
-#include <string_view>
-
 #include "forest/render/depth_renderer.h"
+#include "forest/render/named_camera.h"
 #include "forest/render/smooth_noise.h"
+#include "forest/render/stereo_sensor.h"
+#include "forest/render/tof_sensor.h"
 #include "libtracker/core/random.h"
 
 namespace depthmocap {
-
-enum class SensorKind { Kinect1, Kinect2 };
-
-constexpr std::string_view sensorName(SensorKind kind) {
-  return kind == SensorKind::Kinect1 ? "kinect1" : "kinect2";
-}
-std::optional<SensorKind> sensorNamed(std::string_view name);
-
-// Nominal intrinsics. Kinect v1: 640x480, f = 575.8 px (Khoshelham and Elberink 2012); Kinect v2: 512x424, f = 365 px.
-// half_size: every second pixel, as the driver's 320x240 mode.
-CameraModel sensorCamera(SensorKind kind, bool half_size = false);
 
 // Structured light: disparity in steps of 1/8 px found by matching windows of a dot pattern. Khoshelham and Elberink
 // 2012, Nguyen, Izadi and Lovell 2012. Pixels are those of the 640x480 image; smaller images scale them.
@@ -55,10 +44,13 @@ struct Kinect2Noise {
 // Turns a noise-free picture into what a sensor delivers. Keeps its working memory: use one object per thread.
 class SensorModel {
  public:
-  explicit SensorModel(SensorKind kind) : kind_(kind) {}
+  explicit SensorModel(SensorKind kind);
 
+  // Of these, the one that belongs to the kind counts.
   Kinect1Noise kinect1;
   Kinect2Noise kinect2;
+  StereoSensor stereo;  // D435 and Orbbec
+  TofSensor tof;        // Azure
 
   // What render() must compute for apply().
   [[nodiscard]] RenderOptions renderOptions() const;
@@ -72,7 +64,13 @@ class SensorModel {
   void applyKinect1(const RenderedView& view, double scale, Random& random, DepthImage& depth, PartImage& parts);
   void applyKinect2(const RenderedView& view, double scale, Random& random, DepthImage& depth, PartImage& parts);
 
+  void applyOnItsSide(const RenderedView& view, const CameraModel& camera, Random& random, DepthImage& depth,
+                      PartImage& parts);
+
   SensorKind kind_;
+  RenderedView turned_;
+  DepthImage turned_depth_;
+  PartImage turned_parts_;
   SmoothNoise shift_x_, shift_y_, error_, dropout_;
   DepthImage unfiltered_;
 };

@@ -26,7 +26,60 @@ std::size_t nearestAround(const DepthImage& depth, int x, int y, int reach) {
   return best;
 }
 
+// A jump of depth that no slanted surface makes, this far [px] to one of the four sides.
+bool edgeWithin(const DepthImage& depth, int x, int y, int reach) {
+  constexpr float kJump = 0.06F;  // of the depth
+  if (reach <= 0) return false;
+  const float here = depth.at(x, y);
+  for (const auto& [dx, dy] : {std::pair{-reach, 0}, std::pair{reach, 0}, std::pair{0, -reach}, std::pair{0, reach}}) {
+    if (!depth.contains(x + dx, y + dy)) continue;
+    const float there = depth.at(x + dx, y + dy);
+    if (there <= 0 || std::abs(there - here) > kJump * here * static_cast<float>(1 + 0.1 * reach)) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+// Chosen by eye beside the real pictures of docs/design/rendered-cameras.md.
+std::optional<StereoNoise> stereoNoiseOf(SensorKind kind) {
+  StereoNoise n;
+  switch (kind) {
+    case SensorKind::D435:
+    case SensorKind::D435Portrait:
+      n.window_px = 13.0;
+      n.disparity_noise_px = 0.07;
+      n.dropout = 0.03;
+      n.dropout_px = 14.0;
+      n.smoothing_px = 3.0;
+      n.fill_px = 40.0;
+      return n;
+    case SensorKind::D435Raw:
+    case SensorKind::D435Hd:
+      n.filling = HoleFilling::None;
+      n.smoothing_px = 0.0;
+      n.dropout = 0.06;
+      n.dropout_power = 2.0;
+      n.dropout_px = 34.0;
+      n.disparity_noise_px = 0.09;
+      n.fattening_px = 1.0;
+      n.edge_gap_px = 7.0;
+      n.blind_band = true;
+      return n;
+    case SensorKind::Orbbec:
+      n.filling = HoleFilling::None;
+      n.smoothing_px = 4.0;
+      n.dropout = 0.05;
+      n.dropout_px = 45.0;
+      n.window_px = 14.0;
+      n.fattening_px = 5.0;
+      n.min_depth_m = 0.15;
+      n.blind_band = true;
+      return n;
+    default:
+      return std::nullopt;
+  }
+}
 
 RenderOptions StereoSensor::renderOptions() const {
   RenderOptions options;
@@ -43,7 +96,7 @@ void StereoSensor::apply(const RenderedView& view, const CameraModel& camera, Ra
   parts.reset(camera.width, camera.height, 0);
   const double scale = camera.fx / kReferenceFocal_px;
   match(view, scale, random, depth, parts);
-  if (noise.filling != HoleFilling::None) fillHoles(depth, parts);
+  if (noise.filling != HoleFilling::None) fillHoles(noise.fill_px * scale, depth, parts);
   const double reach = noise.smoothing_px * scale;
   if (reach > 0) smooth(reach, depth, parts);
   for (std::size_t i = 0; i < depth.data.size(); ++i) {
@@ -69,8 +122,13 @@ void StereoSensor::match(const RenderedView& view, double scale, Random& random,
       const auto z = static_cast<double>(view.depth.data[i]);
       const auto cosine = static_cast<double>(view.incidence.data[i]);
       if (z <= 0 || view.lit.data[i] == 0 || cosine < noise.grazing_cos) continue;
+      if (noise.blind_band && x < scale * focal_baseline / z) continue;
+      if (noise.edge_gap_px > 0) {
+        const double gap = noise.edge_gap_px * scale * (0.7 + 0.5 * static_cast<double>(texture_.at(x, y)));
+        if (edgeWithin(view.depth, x, y, static_cast<int>(std::lround(gap)))) continue;
+      }
       // Less light comes back from farther: patches without texture grow.
-      const double share = std::min(0.95, noise.dropout * std::max(0.2, z / 2.0));
+      const double share = std::min(0.95, noise.dropout * std::max(0.2, std::pow(z / 2.0, noise.dropout_power)));
       const double threshold = share > 0 ? std::log((1 - share) / share) / 1.702 : 1e9;
       if (static_cast<double>(texture_.at(x, y)) > threshold) continue;
       const double slant = 1.0 / std::max(0.3, cosine);
@@ -84,14 +142,15 @@ void StereoSensor::match(const RenderedView& view, double scale, Random& random,
 }
 
 // Row by row, what lies between two measured pixels.
-void StereoSensor::fillHoles(DepthImage& depth, PartImage& parts) const {
+void StereoSensor::fillHoles(double fill_px, DepthImage& depth, PartImage& parts) const {
   for (int y = 0; y < depth.height; ++y) {
     int left = -1;
     for (int x = 0; x <= depth.width; ++x) {
       const bool measured = x < depth.width && depth.at(x, y) > 0;
       if (!measured && x < depth.width) continue;
       const bool open = left < 0 || x == depth.width;  // a hole at the border has one side only
-      for (int h = left + 1; h < x; ++h) {
+      const bool wide = x - left - 1 > fill_px;
+      for (int h = left + 1; h < x && !wide; ++h) {
         if (left < 0 && x == depth.width) break;
         const int from_left = left < 0 ? x : left;
         const int from_right = x == depth.width ? left : x;

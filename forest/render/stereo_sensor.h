@@ -1,5 +1,8 @@
 #pragma once
+#include <optional>
+
 #include "forest/render/depth_renderer.h"
+#include "forest/render/named_camera.h"
 #include "forest/render/smooth_noise.h"
 #include "libtracker/core/random.h"
 
@@ -23,10 +26,17 @@ struct StereoNoise {
   double dropout_px = 28.0;         // [px] size of such patches
   double grazing_cos = 0.1;         // surfaces seen flatter than this give no match
   HoleFilling filling = HoleFilling::Ramp;
-  double smoothing_px = 6.0;  // [px] reach of the spatial filter across edges; 0 = no filter
-  double min_depth_m = 0.25;  // [m]
-  double max_depth_m = 10.0;  // [m]
+  double smoothing_px = 6.0;   // [px] reach of the spatial filter across edges; 0 = no filter
+  double min_depth_m = 0.25;   // [m]
+  double max_depth_m = 10.0;   // [m]
+  double dropout_power = 1.0;  // how that share grows with the distance: 2 as the light of the projector fades
+  double edge_gap_px = 0.0;    // [px] within this of a depth edge windows find no match
+  double fill_px = 1e9;        // [px] wider holes stay
+  bool blind_band = false;     // the image's left border, which the second imager does not see, gives no match
 };
+
+// The settings of a named camera; nothing for cameras that are no stereo cameras.
+std::optional<StereoNoise> stereoNoiseOf(SensorKind kind);
 
 // Turns a noise-free picture into what a stereo camera delivers. Keeps its working memory: use one object per thread.
 class StereoSensor {
@@ -41,7 +51,7 @@ class StereoSensor {
 
  private:
   void match(const RenderedView& view, double scale, Random& random, DepthImage& depth, PartImage& parts);
-  void fillHoles(DepthImage& depth, PartImage& parts) const;
+  void fillHoles(double fill_px, DepthImage& depth, PartImage& parts) const;
   void smooth(double reach_px, DepthImage& depth, PartImage& parts);
 
   SmoothNoise error_, texture_, growth_;

@@ -2,6 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -10,6 +13,9 @@
 
 #include "depthmocap/error.h"
 #include "depthmocap/world_frame.h"
+#include "forest/render/furnished_room.h"
+#include "forest/render/person_label.h"
+#include "forest/render/room_occupancy.h"
 #include "forest/render/scene.h"
 #include "libtracker/body/pose_surface.h"
 #include "libtracker/core/parallel.h"
@@ -23,6 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of the seed's streams, which rooms are drawn from; those of frames count from 0.
+constexpr std::uint64_t kRoomStream = 1ULL << 40U;
 constexpr std::size_t kFramesAWorker = 4;  // rendered before the writer takes over; bounds the memory
 
 struct RenderedFrame {
@@ -43,6 +51,9 @@ class Surroundings {
     body_ = &config.bystander->body;
     const auto first = static_cast<std::uint32_t>(room_vertices_);
     for (const Triangle& t : body_->triangles) mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    if (!config.bystander->in_truth) return;
+    mesh_.part.resize(mesh_.triangles.size() - body_->triangles.size(), 0);
+    for (const std::uint8_t part : body_->part) mesh_.part.push_back(labelOf(part, 2));
   }
 
   // Valid until the next call.
@@ -72,8 +83,10 @@ class FrameRenderer {
 
   void render(const Pose& q, RenderedFrame& frame) {
     renderer_.setBackground(surroundings_.at(static_cast<std::size_t>(frame.depth.frame)));
-    poseSurface(body_, q, vertices_);
-    renderer_.setBody(vertices_, body_.triangles, body_.part);
+    if (config_.scene != SceneKind::Empty) {
+      poseSurface(body_, q, vertices_);
+      renderer_.setBody(vertices_, body_.triangles, body_.part);
+    }
     renderer_.render(config_.camera, T_camera_world_, config_.noise ? sensor_.renderOptions() : RenderOptions{},
                      clean_);
     if (config_.noise) {
@@ -113,12 +126,48 @@ JointsRow truthRow(const Skeleton& skeleton, const Pose& q, const SynthesisConfi
   return row;
 }
 
-TriangleMesh sceneFor(const SynthesisConfig& config, const StagedMotion& staged, const std::vector<Pose>& bystander) {
+TriangleMesh sceneFor(const SynthesisConfig& config, const BodySurface& body, const StagedMotion& staged,
+                      const std::vector<Pose>& bystander) {
   if (config.scene == SceneKind::None) return {};
-  std::vector<Eigen::Vector3d> path;
-  for (const Pose& q : staged.poses) path.emplace_back(q.head<3>());
-  for (const Pose& q : bystander) path.emplace_back(q.head<3>());
-  return makeRoom(staged.floor_y, path, config.seed);
+  if (config.scene == SceneKind::Room) {
+    std::vector<Eigen::Vector3d> path;
+    for (const Pose& q : staged.poses) path.emplace_back(q.head<3>());
+    for (const Pose& q : bystander) path.emplace_back(q.head<3>());
+    return makeRoom(staged.floor_y, path, config.seed);
+  }
+  RoomPeople people;
+  people.floor_y = staged.floor_y;
+  people.skeleton = &body.skeleton;
+  people.distance_m = config.staging.distance_m;
+  if (config.scene != SceneKind::Empty) people.actor = staged.poses;
+  if (config.bystander) people.others = bodyPoints(config.bystander->body.skeleton, bystander);
+  Random random(config.seed, kRoomStream);
+  return makeFurnishedRoom(config.scene, people, random);
+}
+
+// The other's poses, moved aside as far as the two do not meet.
+std::vector<Pose> stageBystander(const Bystander& other, const StagedMotion& actor) {
+  std::vector<Pose> poses = stageMotion(other.clip, other.body, other.staging).poses;
+  if (!(other.apart_m > 0)) return poses;
+  constexpr double kStep_m = 0.1;
+  constexpr int kSteps = 40;
+  const auto nearest = [&](double beside) {
+    double gap = 1e9;
+    for (std::size_t i = 0; i < actor.poses.size(); ++i) {
+      const Pose& q = poses[std::min(i, poses.size() - 1)];
+      gap = std::min(gap,
+                     std::hypot(q[kRootTx] + beside - actor.poses[i][kRootTx], q[kRootTz] - actor.poses[i][kRootTz]));
+    }
+    return gap;
+  };
+  for (int i = 0; i < kSteps; ++i) {  // to both sides in turn
+    const int steps = (i % 2 == 0 ? 1 : -1) * (1 + i / 2);
+    const double beside = kStep_m * steps;
+    if (nearest(beside) < other.apart_m) continue;
+    for (Pose& q : poses) q[kRootTx] += beside;
+    break;
+  }
+  return poses;
 }
 
 void makeLabelFolder(const fs::path& folder) {
@@ -137,21 +186,53 @@ RecordingInfo infoOf(const SynthesisConfig& config, double fps, double path_scal
   return info;
 }
 
+// The truth of one person: joints and poses. Files of a second one end in -2.
+class TruthFiles {
+ public:
+  TruthFiles(const fs::path& folder, const std::string& suffix, const Skeleton& skeleton, const SynthesisConfig& config)
+      : joints_(folder / ("joints" + suffix + ".csv")),
+        poses_(folder / ("pose" + suffix + ".csv")),
+        skeleton_(skeleton),
+        config_(config) {}
+
+  void write(const Pose& q, const DepthFrame& frame) {
+    joints_.write(truthRow(skeleton_, q, config_, frame));
+    poses_.write({frame.frame, frame.time_s, q, tiltedCameraFromWorld(config_).transpose()});
+  }
+  void writeNobody(const DepthFrame& frame) {
+    JointsRow row;
+    row.frame = frame.frame;
+    row.time_s = frame.time_s;
+    joints_.write(row);
+  }
+  void finish() {
+    joints_.finish();
+    poses_.finish();
+  }
+
+ private:
+  JointsWriter joints_;
+  PoseWriter poses_;
+  const Skeleton& skeleton_;
+  const SynthesisConfig& config_;
+};
+
 }  // namespace
 
 void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const SynthesisConfig& config,
                          const fs::path& folder, const std::function<void(std::size_t)>& progress) {
   const StagedMotion staged = stageMotion(clip, body, config.staging);
   std::vector<Pose> bystander;
-  if (config.bystander) {
-    bystander = stageMotion(config.bystander->clip, config.bystander->body, config.bystander->staging).poses;
-  }
-  const Surroundings surroundings(sceneFor(config, staged, bystander), config, bystander);
+  if (config.bystander) bystander = stageBystander(*config.bystander, staged);
+  const Surroundings surroundings(sceneFor(config, body, staged, bystander), config, bystander);
   RecordingWriter recording(folder, infoOf(config, clip.fps, staged.path_scale));
   const fs::path labels = folder / "truth" / "labels";
   makeLabelFolder(labels);
-  JointsWriter joints(folder / "truth" / "joints.csv");
-  PoseWriter poses(folder / "truth" / "pose.csv");
+  TruthFiles truth(folder / "truth", "", body.skeleton, config);
+  std::optional<TruthFiles> second;
+  if (config.bystander && config.bystander->in_truth) {
+    second.emplace(folder / "truth", "-2", config.bystander->body.skeleton, config);
+  }
 
   const auto workers = static_cast<std::size_t>(config.threads);
   std::vector<FrameRenderer> renderers;
@@ -172,15 +253,18 @@ void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const 
     });
     for (std::size_t slot = 0; slot < here; ++slot) {
       const DepthFrame& frame = batch[slot].depth;
-      const Pose& q = staged.poses[first + slot];
       recording.write(frame);
-      joints.write(truthRow(body.skeleton, q, config, frame));
-      poses.write({frame.frame, frame.time_s, q, tiltedCameraFromWorld(config).transpose()});
+      if (config.scene == SceneKind::Empty) {
+        truth.writeNobody(frame);
+      } else {
+        truth.write(staged.poses[first + slot], frame);
+      }
+      if (second) second->write(bystander[std::min(first + slot, bystander.size() - 1)], frame);
     }
     if (progress) progress(first + here);
   }
-  joints.finish();
-  poses.finish();
+  truth.finish();
+  if (second) second->finish();
 }
 
 }  // namespace depthmocap

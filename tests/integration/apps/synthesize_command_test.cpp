@@ -38,11 +38,28 @@ TEST_F(SynthesizeCommand, SameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(SynthesizeCommand, EveryCameraAndEverySceneRenders) {
+  for (const char* camera : {"d435", "d435_raw", "d435_hd", "d435_portrait", "orbbec", "azure"}) {
+    const ProgramResult result =
+        synthesize(camera, std::string("--motion procedural:sit_and_talk --last 0 --scene sofa --camera ") + camera);
+    ASSERT_EQ(result.exit_code, 0) << camera << result.errors;
+    EXPECT_EQ(openRecording(folder_ / camera)->info().camera_name, camera);
+  }
+  for (const char* scene : {"bed", "chair", "table", "behind_sofa", "cluttered", "corner", "empty", "bystander"}) {
+    const ProgramResult result = synthesize(
+        scene,
+        std::string("--motion procedural:walk --last 1 --camera-height 2.2 --tilt 35 --size 320x240 --scene ") + scene);
+    ASSERT_EQ(result.exit_code, 0) << scene << result.errors;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "bystander/truth/joints-2.csv"));
+}
+
 TEST_F(SynthesizeCommand, WrongUsageExitsWithTwo) {
   EXPECT_EQ(synthesize("rec", "").exit_code, 2);
   EXPECT_EQ(synthesize("rec", "--motion procedural:walk --camera kinect3").exit_code, 2);
   EXPECT_EQ(synthesize("rec", "--motion procedural:walk --camera kinect2 --size 320x240").exit_code, 2);
   EXPECT_EQ(synthesize("rec", "--motion procedural:walk --sex x").exit_code, 2);
+  EXPECT_EQ(synthesize("rec", "--motion procedural:walk --scene kitchen").exit_code, 2);
 }
 
 TEST_F(SynthesizeCommand, WorkThatFailsExitsWithOneAndSaysWhy) {

@@ -1,5 +1,6 @@
 #include "forest/render/synthesize.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -163,6 +164,55 @@ TEST_F(Synthesize, BystanderHidesTheActorAndIsNobodyInTheTruth) {
   readPng8(folder_ / "two/truth/labels/000002.png", config_.camera.width, config_.camera.height, labels);
   const Eigen::Vector2d uv = config_.camera.project(pelvis);
   EXPECT_EQ(labels.at(static_cast<int>(uv.x()), static_cast<int>(uv.y())), 0);
+}
+
+TEST_F(Synthesize, FurnishedRoomsDoNotDependOnThreadsButOnTheSeed) {
+  config_.scene = SceneKind::Sofa;
+  config_.threads = 1;
+  synthesizeRecording(bendingArms(5), body(), config_, folder_ / "one");
+  config_.threads = 3;
+  synthesizeRecording(bendingArms(5), body(), config_, folder_ / "three");
+  EXPECT_EQ(filesUnder(folder_ / "one"), filesUnder(folder_ / "three"));
+  config_.noise = false;
+  synthesizeRecording(bendingArms(1), body(), config_, folder_ / "seed1");
+  config_.seed = 2;
+  synthesizeRecording(bendingArms(1), body(), config_, folder_ / "seed2");
+  EXPECT_NE(readBytes(folder_ / "seed1/depth/000000.png"), readBytes(folder_ / "seed2/depth/000000.png"));
+}
+
+TEST_F(Synthesize, NobodyIsInTheTruthOfAnEmptyRoom) {
+  config_.scene = SceneKind::Empty;
+  synthesizeRecording(bendingArms(2), body(), config_, folder_ / "rec");
+  const std::vector<JointsRow> joints = readJointsFile(folder_ / "rec/truth/joints.csv");
+  ASSERT_EQ(joints.size(), 2U);
+  for (const JointsRow& row : joints) EXPECT_EQ(row.state, TrackState::Lost);
+  EXPECT_TRUE(readPoseFile(folder_ / "rec/truth/pose.csv").empty());
+  PartImage labels;
+  readPng8(folder_ / "rec/truth/labels/000001.png", config_.camera.width, config_.camera.height, labels);
+  for (const std::uint8_t label : labels.data) ASSERT_EQ(label, 0);
+  DepthFrame frame;
+  openRecording(folder_ / "rec")->read(1, frame);
+  EXPECT_GT(std::ranges::count_if(frame.depth.data, [](float z) { return z > 0; }), 320 * 240 / 2);
+}
+
+TEST_F(Synthesize, ABystanderInTheTruthHasLabelsAndJointsOfHisOwn) {
+  config_.noise = false;
+  config_.bystander.emplace(Bystander{bendingArms(2), body(), {}, true, 0.8});
+  synthesizeRecording(bendingArms(3), body(), config_, folder_ / "rec");
+  const JointsRow first = readJointsFile(folder_ / "rec/truth/joints.csv").back();
+  const std::vector<JointsRow> second = readJointsFile(folder_ / "rec/truth/joints-2.csv");
+  ASSERT_EQ(second.size(), 3U);
+  EXPECT_EQ(readPoseFile(folder_ / "rec/truth/pose-2.csv").size(), 3U);
+  const auto pelvis = static_cast<int>(Joint::Pelvis);
+  EXPECT_GT((first.p_camera.col(pelvis) - second.back().p_camera.col(pelvis)).norm(), 0.79);
+  PartImage labels;
+  readPng8(folder_ / "rec/truth/labels/000002.png", config_.camera.width, config_.camera.height, labels);
+  const auto labelAt = [&](const JointsRow& row, Joint joint) {
+    const Eigen::Vector2d uv = config_.camera.project(row.p_camera.col(static_cast<int>(joint)));
+    return static_cast<int>(labels.at(static_cast<int>(uv.x()), static_cast<int>(uv.y())));
+  };
+  EXPECT_EQ(labelAt(first, Joint::Spine), static_cast<int>(Part::Torso));
+  EXPECT_EQ(labelAt(second.back(), Joint::Spine), 16 + static_cast<int>(Part::Torso));
 }
 
 }  // namespace
