@@ -8,6 +8,7 @@
 #include "depthmocap/world_frame.h"
 #include "forest/render/furniture.h"
 #include "forest/render/props.h"
+#include "forest/render/room_occupancy.h"
 #include "forest/render/shapes.h"
 #include "libtracker/body/pose_surface.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -30,16 +31,6 @@ constexpr double kSitterShare = 0.2;     // of the people whose pose is drawn an
 constexpr int kSitterDraws = 40;         // at most so often
 constexpr double kRowShare = 0.35;       // of the pictures of several who stand in a row
 constexpr double kCutOutShare = 0.06;    // of the pictures whose room was removed
-
-// Who has the thighs about level, the trunk upright and the pelvis high sits on something.
-bool sits(const Skeleton& skeleton, const Pose& q) {
-  const JointPositions joints = jointPositions(skeleton, q);
-  const auto y = [&](Joint j) { return joints(1, static_cast<int>(j)); };
-  const double pelvis = y(Joint::Pelvis);
-  const double foot = std::min(y(Joint::LeftAnkle), y(Joint::RightAnkle));
-  return y(Joint::LeftHip) - y(Joint::LeftKnee) < 0.22 && y(Joint::RightHip) - y(Joint::RightKnee) < 0.22 &&
-         y(Joint::Neck) > pelvis + 0.3 && pelvis > foot + 0.2;
-}
 
 Eigen::AlignedBox3d boundsOf(const std::vector<Eigen::Vector3f>& vertices) {
   Eigen::AlignedBox3f box;
@@ -148,7 +139,7 @@ void RoomViewRenderer::placePeople(std::span<const BodySurface> bodies, const st
     const BodySurface& body = bodies[random.below(static_cast<std::uint32_t>(bodies.size()))];
     Pose q = draw(random);
     if (random.uniform() < kSitterShare) {
-      for (int k = 0; k < kSitterDraws && !sits(body.skeleton, q); ++k) q = draw(random);
+      for (int k = 0; k < kSitterDraws && !isSeated(body.skeleton, q); ++k) q = draw(random);
     }
     placeActor(body, q, place, random);
   }
@@ -186,7 +177,7 @@ void RoomViewRenderer::placeActor(const BodySurface& body, Pose q, const Eigen::
 }
 
 void RoomViewRenderer::supportActor(const BodySurface& body, const Pose& q, Random& random) {
-  if (!sits(body.skeleton, q) || random.uniform() > kSeatedShare) return;
+  if (!isSeated(body.skeleton, q) || random.uniform() > kSeatedShare) return;
   const double pelvis = jointPositions(body.skeleton, q)(1, static_cast<int>(Joint::Pelvis));
   const double seat = pelvis - random.uniform(0.07, 0.11);
   append(scene_, drawSeat(seat, random), placed(aboutY(q[kRootRy] + random.uniform(-0.3, 0.3)), {q[0], 0, q[2]}));
