@@ -15,6 +15,7 @@
 #include "depthmocap/error.h"
 #include "depthmocap/tracker.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/recording/turned_recording.h"
 #include "libtracker/session/replay_session.h"
 
 namespace depthmocap {
@@ -25,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 struct ReplayOptions {
   fs::path recording;
+  int turn_deg = 0;  // clockwise, that makes the pictures upright
   TrackOptions track;
   ReplaySessionOptions session;
 };
@@ -54,7 +56,7 @@ void stayForView(ReplayView& view) {
 void replay(const ReplayOptions& o) {
   const auto start = Clock::now();
   const StopRequest on_ctrl_c;
-  const std::unique_ptr<RecordingReader> reader = openRecording(o.recording);
+  const std::unique_ptr<RecordingReader> reader = turnedRecording(openRecording(o.recording), o.turn_deg);
   Tracker tracker(loadModels(o.track), reader->info().camera, trackerConfig(o.track), actorOf(o.track));
   ReplaySessionOptions options = o.session;
   options.smooth = o.track.smooth;
@@ -65,7 +67,7 @@ void replay(const ReplayOptions& o) {
   std::optional<ReplayView> view;
   if (!o.track.vmc.empty()) session.addSink(pace);
   session.addSink(outputs);
-  if (o.track.view.on) session.addSink(view.emplace(o.track.view, o.recording, session.frameCount()));
+  if (o.track.view.on) session.addSink(view.emplace(o.track.view, o.recording, o.turn_deg, session.frameCount()));
   {
     Progress progress("tracking", session.frameCount());
     session.run({[&](std::size_t done, std::size_t) { progress.update(done); },
@@ -89,6 +91,12 @@ void addReplayCommand(CLI::App& app) {
       ->required();
   addTrackOptions(*command, options->track);
   addLookAheadOption(*command, options->session.look_ahead_s);
+  command
+      ->add_option("--turn", options->turn_deg,
+                   "A camera on its side or upside down: degrees clockwise that make its pictures upright")
+      ->type_name("DEG")
+      ->check(CLI::IsMember({0, 90, 180, 270}))
+      ->capture_default_str();
   command->add_option("--first", options->session.first_frame, "First frame number to track");
   command->add_option("--last", options->session.last_frame, "Last frame number to track");
   command->footer(

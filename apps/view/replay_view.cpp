@@ -16,6 +16,7 @@
 #include "depthmocap/error.h"
 #include "libtracker/core/background.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/recording/turned_recording.h"
 
 namespace depthmocap {
 namespace {
@@ -35,8 +36,8 @@ struct Entry {
 }  // namespace
 
 struct ReplayView::Impl {
-  Impl(const ViewOptions& options, const std::filesystem::path& recording, std::size_t total_frames)
-      : reader(openRecording(recording)),
+  Impl(const ViewOptions& options, const std::filesystem::path& recording, int turn_deg, std::size_t total_frames)
+      : reader(turnedRecording(openRecording(recording), turn_deg)),
         encoder(reader->info().camera),
         total(total_frames),
         page(webServerConfig(options), pageFolder(),
@@ -168,8 +169,9 @@ void ReplayView::Impl::play() {
   }
 }
 
-ReplayView::ReplayView(const ViewOptions& options, const std::filesystem::path& recording, std::size_t total)
-    : impl_(std::make_unique<Impl>(options, recording, total)) {
+ReplayView::ReplayView(const ViewOptions& options, const std::filesystem::path& recording, int turn_deg,
+                       std::size_t total)
+    : impl_(std::make_unique<Impl>(options, recording, turn_deg, total)) {
   impl_->page.start();
   impl_->player = std::thread([this] { impl_->play(); });
   std::cerr << "view: " << impl_->page.server().url() << std::endl;
