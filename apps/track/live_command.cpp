@@ -11,6 +11,7 @@
 #include "apps/terminal/status_line.h"
 #include "apps/terminal/stop_request.h"
 #include "apps/track/camera_watch.h"
+#include "apps/track/seen_depth.h"
 #include "apps/track/source_options.h"
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
@@ -55,13 +56,14 @@ class TerminalSink : public FrameSink {
   CameraWatch watch_;
 };
 
-std::string summaryText(const LiveFigures& f, const RunStats& stats) {
+std::string summaryText(const LiveFigures& f, const RunStats& stats, const SeenDepth& seen) {
   std::string text = fmt::format("tracked {} of {} frames; skipped {} for newer ones, {} did not arrive",
                                  stats.tracked(), f.received, f.replaced, f.missing);
   if (f.damaged > 0) text += fmt::format(", {} were damaged", f.damaged);
   if (f.returns > 0) text += fmt::format("; the camera came back {} times", f.returns);
   if (f.recorded + f.not_recorded > 0)
     text += fmt::format("; recorded {}, not recorded {}", f.recorded, f.not_recorded);
+  if (stats.tracked() == 0 && stats.frames() > 0) text += "; " + seen.explanation();
   return text;
 }
 
@@ -81,6 +83,7 @@ struct LiveRun {
                                     options.track.threads, tracker));
     }
     session->addSink(terminal);
+    session->addSink(seen);
   }
   std::unique_ptr<DepthSource> source;
   Models models;
@@ -89,6 +92,7 @@ struct LiveRun {
   std::optional<Recorder> recorder;
   std::optional<LiveView> view;
   TerminalSink terminal;
+  SeenDepth seen;
   std::optional<LiveSession> session;
 };
 
@@ -107,7 +111,7 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
     figures.recorded = run.recorder->status().written;
     figures.not_recorded = run.recorder->status().dropped;
   }
-  std::cerr << summaryText(figures, run.session->stats()) << '\n';
+  std::cerr << summaryText(figures, run.session->stats(), run.seen) << '\n';
   if (figures.received == 0) attempt([&] { throw Error("not one frame came", options.source.source); });
   if (figures.received > 0) attempt([&] { run.outputs.finish(); });
   run.session->stats().setLive(figures);

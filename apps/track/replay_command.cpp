@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
+#include "apps/track/seen_depth.h"
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
@@ -67,6 +68,8 @@ void replay(const ReplayOptions& o) {
   std::optional<ReplayView> view;
   if (!o.track.vmc.empty()) session.addSink(pace);
   session.addSink(outputs);
+  SeenDepth seen;
+  session.addSink(seen);
   if (o.track.view.on) session.addSink(view.emplace(o.track.view, o.recording, o.turn_deg, session.frameCount()));
   {
     Progress progress("tracking", session.frameCount());
@@ -77,7 +80,7 @@ void replay(const ReplayOptions& o) {
   outputs.finish();
   const RunStats& stats = session.stats();
   if (!o.track.stats.empty()) stats.write(o.track.stats, millisecondsSince(start) / 1000.0, o.track.actor.empty());
-  std::cerr << "tracked " << stats.tracked() << " of " << stats.frames() << " frames\n";
+  std::cerr << trackedText(stats.tracked(), stats.frames(), seen) << '\n';
   if (view) stayForView(*view);
 }
 

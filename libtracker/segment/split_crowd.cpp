@@ -14,7 +14,7 @@ constexpr float kCrowdArea_m2 = 0.6F;
 // [m] A narrower piece is one person: two people side by side are wider.
 constexpr float kCrowdWidth_m = 0.65F;
 // [m] Width of the strips whose upper ends are compared: less than a head's.
-constexpr float kStrip_m = 0.06F;
+constexpr float kStrip_m = 0.04F;
 // [m] Least depth of the dip between two heads: shoulders lie so far below.
 constexpr float kDip_m = 0.12F;
 // [m^2] Least surface of each of two people: a raised arm has less.
@@ -65,6 +65,8 @@ std::optional<float> CrowdSplitter::findCut(const CoarseCloud& cloud, const Eige
   }
   float total = 0;
   for (const float area : area_m2_) total += area;
+  closed_top_m_ = top_m_;  // without notches narrower than three strips: between a neck and a shoulder
+  for (std::size_t s = 1; s + 1 < strips; ++s) closed_top_m_[s] = std::max({top_m_[s - 1], top_m_[s], top_m_[s + 1]});
   std::optional<float> cut;
   float deepest = kDip_m;
   float left_area = 0;
@@ -73,7 +75,7 @@ std::optional<float> CrowdSplitter::findCut(const CoarseCloud& cloud, const Eige
     const auto middle = top_m_.begin() + static_cast<std::ptrdiff_t>(s);
     const float left = *std::max_element(top_m_.begin(), middle);
     const float right = *std::max_element(middle + 1, top_m_.end());
-    const float dip = std::min(left, right) - *middle;
+    const float dip = std::min(left, right) - closed_top_m_[s];
     const bool alike = std::min(left, right) - bottom > kLeastHeightShare * (std::max(left, right) - bottom);
     const bool two = left_area >= kLeastPerson_m2 && total - left_area - area_m2_[s] >= kLeastPerson_m2;
     if (!alike || !two || dip <= deepest) continue;

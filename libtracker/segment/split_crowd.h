@@ -24,6 +24,7 @@ class CrowdSplitter {
 
   // Of each strip across the component.
   std::vector<float> top_m_;
+  std::vector<float> closed_top_m_;
   std::vector<float> area_m2_;
 };
 

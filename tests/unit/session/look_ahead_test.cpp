@@ -66,7 +66,7 @@ class LookAheadFrames : public testing::Test {
 
   Actor actor_;
   std::vector<TrackedFrame> frames_;
-  TrackedFrame still_{.person = 2};  // somebody who is not there
+  TrackedFrame still_;  // somebody who is not there
 };
 
 TEST_F(LookAheadFrames, StepOfAnUnbrokenTrackIsSmoothedOnBothSides) {

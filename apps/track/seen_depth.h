@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "libtracker/session/frame_sink.h"
+
+namespace depthmocap {
+
+// What a run saw, to say why nobody was tracked: the range of the depth, and how much of the pictures was measured.
+// Looks at a few hundred pixels of each frame.
+class SeenDepth : public FrameSink {
+ public:
+  void onFrame(const SessionFrame& frame) override;
+  // One sentence without a full stop: what was seen, the likely cause, what to do. Empty before the first frame.
+  [[nodiscard]] std::string explanation() const;
+
+ private:
+  [[nodiscard]] double percentile(double share) const;  // [m]
+
+  static constexpr int kBins = 400;  // from 1 mm to 300 m, each 3 % wider than the one before
+  std::array<std::uint64_t, kBins> bins_{};
+  std::uint64_t measured_ = 0;
+  std::uint64_t pixels_ = 0;
+};
+
+// The last words of a run: how many of its frames were tracked and, where it was hardly any, why.
+std::string trackedText(std::size_t tracked, std::size_t frames, const SeenDepth& seen);
+
+}  // namespace depthmocap

@@ -1,0 +1,40 @@
+#include "apps/track/seen_depth.h"
+
+#include <gtest/gtest.h>
+
+namespace depthmocap {
+namespace {
+
+std::string explanationOf(float depth_m, double measured_share = 1) {
+  DepthFrame frame;
+  frame.depth.reset(320, 240, depth_m);
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      if (y >= 240 * measured_share) frame.depth.at(x, y) = 0;
+    }
+  }
+  const TrackedFrame tracked;
+  const TrackedFrame* nobody = &tracked;
+  SeenDepth seen;
+  seen.onFrame({0, frame, tracked, 30.0, {&nobody, 1}});
+  return seen.explanation();
+}
+
+TEST(SeenDepth, SaysWhatWasSeenAndTheLikelyCause) {
+  EXPECT_NE(explanationOf(3.0F).find("depth from 3"), std::string::npos) << explanationOf(3.0F);
+  EXPECT_NE(explanationOf(3.0F, 0.5).find("50 %"), std::string::npos) << explanationOf(3.0F, 0.5);
+  EXPECT_NE(explanationOf(3.0F).find("--turn"), std::string::npos);
+  EXPECT_NE(explanationOf(0.003F).find("too small"), std::string::npos);
+  EXPECT_NE(explanationOf(40.0F).find("too large"), std::string::npos);
+  EXPECT_NE(explanationOf(0.3F).find("too near"), std::string::npos);
+  EXPECT_NE(explanationOf(0.0F).find("covered"), std::string::npos);
+}
+
+TEST(SeenDepth, IsOnlyNeededWhereHardlyAnythingWasTracked) {
+  const SeenDepth nothing;
+  EXPECT_EQ(trackedText(0, 0, nothing), "tracked 0 of 0 frames");
+  EXPECT_EQ(trackedText(90, 100, nothing), "tracked 90 of 100 frames");
+}
+
+}  // namespace
+}  // namespace depthmocap
