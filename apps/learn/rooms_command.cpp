@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -35,7 +36,7 @@ std::string packed(const TrainingImage& image) {
   append(bytes, static_cast<std::uint16_t>(image.depth.width));
   append(bytes, static_cast<std::uint16_t>(image.depth.height));
   append(bytes, static_cast<float>(image.focal_px));
-  for (const float z : image.depth.data) append(bytes, static_cast<std::uint16_t>(z * 1000.0F + 0.5F));
+  for (const float z : image.depth.data) append(bytes, static_cast<std::uint16_t>(std::lround(z * 1000.0F)));
   bytes.append(reinterpret_cast<const char*>(image.labels.data.data()), image.labels.data.size());
   return bytes;
 }

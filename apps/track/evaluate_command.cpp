@@ -23,6 +23,7 @@ struct EvaluateOptions {
   fs::path truth;
   fs::path pose;
   fs::path truth_pose;
+  int person = 1;
   EvaluationOptions evaluation;
 };
 
@@ -61,7 +62,7 @@ fs::path truthPoseFile(const EvaluateOptions& options) {
 
 std::optional<PoseFigures> poseFigures(const EvaluateOptions& options) {
   if (options.pose.empty()) return std::nullopt;
-  return evaluatePoses(readPoseFile(options.pose), readPoseFile(truthPoseFile(options)), options.evaluation);
+  return evaluatePoses(readPoseFile(options.pose, options.person), readPoseFile(truthPoseFile(options)), options.evaluation);
 }
 
 Json report(const JointFigures& joints, const std::optional<PoseFigures>& poses, const EvaluationOptions& options) {
@@ -89,7 +90,7 @@ Json report(const JointFigures& joints, const std::optional<PoseFigures>& poses,
 void evaluate(const EvaluateOptions& options) {
   const std::optional<PoseFigures> poses = poseFigures(options);
   const JointFigures joints = evaluateJoints(
-      readJointsFile(options.joints), readJointsFile(truthFile(options.truth, "joints.csv")), options.evaluation);
+      readJointsFile(options.joints, options.person), readJointsFile(truthFile(options.truth, "joints.csv")), options.evaluation);
   std::cout << report(joints, poses, options.evaluation).dump(2) << '\n';
 }
 
@@ -103,6 +104,9 @@ void addEvaluateCommand(CLI::App& app) {
   CLI::Option* pose = command->add_option("--pose", options->pose, "Pose file of the tracker: adds joint angles");
   command->add_option("--truth-pose", options->truth_pose, "True pose file; otherwise the recording's truth/pose.csv")
       ->needs(pose);
+  command->add_option("--person", options->person, "Of several people tracked, which one to compare")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--first", options->evaluation.first, "First frame number to compare");
   command->add_option("--last", options->evaluation.last, "Last frame number to compare");
   command->add_flag("--root-relative", options->evaluation.root_relative,

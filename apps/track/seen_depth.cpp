@@ -62,7 +62,7 @@ std::string SeenDepth::explanation() const {
 }
 
 std::string trackedText(std::size_t tracked, std::size_t frames, const SeenDepth& seen) {
-  const std::string text = fmt::format("tracked {} of {} frames", tracked, frames);
+  std::string text = fmt::format("tracked {} of {} frames", tracked, frames);
   if (static_cast<double>(tracked) >= kHardlyAny * static_cast<double>(frames)) return text;
   const std::string why = seen.explanation();
   return why.empty() ? text : text + "; " + why;

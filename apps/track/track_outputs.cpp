@@ -66,6 +66,7 @@ class LabelWriter {
 // A stream for each of several people: the first to the port that was named, the others to those that follow.
 std::vector<VmcSender> vmcSenders(const std::string& target, int people) {
   std::vector<VmcSender> senders;
+  senders.reserve(static_cast<std::size_t>(people));
   const std::size_t colon = target.rfind(':');
   const std::optional<std::int64_t> port =
       colon == std::string::npos ? std::nullopt : parseInteger(target.substr(colon + 1));

@@ -128,7 +128,7 @@ void RoomViewRenderer::placePeople(std::span<const BodySurface> bodies, const st
     const double bearing = half_field * random.uniform(-1, 1) * (i == 0 ? 0.8 : 1.1);
     Eigen::Vector2d place(distance * std::tan(bearing), -distance);
     if (row && i > 0) {  // beside the first, to the left and to the right in turn
-      const double side = (i % 2 == 0 ? 1 : -1) * ((i + 1) / 2);
+      const int side = (i % 2 == 0 ? 1 : -1) * ((i + 1) / 2);
       place = places.front() + Eigen::Vector2d(side * random.uniform(0.45, 0.8), random.uniform(-0.4, 0.4));
       place.y() = std::min(place.y(), -config_.min_distance_m);
     }

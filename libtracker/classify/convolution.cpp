@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <initializer_list>
 
 #include "libtracker/core/check.h"
 #include "libtracker/core/parallel.h"
@@ -16,6 +17,12 @@ constexpr int kPixels = 2 * kLanes;
 constexpr int kRowsPerTask = 4;
 
 using Vector = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+std::size_t product(std::initializer_list<int> factors) {
+  std::size_t result = 1;
+  for (const int factor : factors) result *= static_cast<std::size_t>(factor);
+  return result;
+}
 
 int roundedUp(int value, int multiple) {
   return (value + multiple - 1) / multiple * multiple;
@@ -133,21 +140,21 @@ void FeatureMaps::resize(int maps, int width, int height) {
   width_ = width;
   height_ = height;
   pitch_ = roundedUp(width, kPixels) + 2 * kBorder + kLanes;
-  data_.assign(static_cast<std::size_t>(maps * mapSize() + kPixels), 0.0F);
+  data_.assign(static_cast<std::size_t>(maps * mapSize()) + kPixels, 0.0F);
 }
 
 void ConvolutionLayer::prepare() {
   const int taps = kernel * kernel;
-  DMC_CHECK(weights.size() == static_cast<std::size_t>(outputs * inputs * taps));
+  DMC_CHECK(weights.size() == product({outputs, inputs, taps}));
   DMC_CHECK(biases.size() == static_cast<std::size_t>(outputs));
   const int blocks = roundedUp(outputs, kBlock) / kBlock;
-  by_block.assign(static_cast<std::size_t>(blocks * inputs * taps * kBlock), 0.0F);
+  by_block.assign(product({blocks, inputs, taps, kBlock}), 0.0F);
   std::size_t at = 0;
   for (int block = 0; block < blocks; ++block) {
     for (int i = 0; i < inputs; ++i) {
       for (int t = 0; t < taps; ++t) {
         for (int o = kBlock * block; o < kBlock * (block + 1); ++o, ++at) {
-          if (o < outputs) by_block[at] = weights[static_cast<std::size_t>((o * inputs + i) * taps + t)];
+          if (o < outputs) by_block[at] = weights[product({o * inputs + i, taps}) + static_cast<std::size_t>(t)];
         }
       }
     }
@@ -188,8 +195,9 @@ void convolve(const ConvolutionLayer& layer, const FeatureMaps& input, bool rect
         job.outputs = std::min(kBlock, layer.outputs - o);
         job.weights = layer.by_block.data() +
                       static_cast<std::ptrdiff_t>(block) * layer.inputs * layer.kernel * layer.kernel * kBlock;
+        const float* biases = layer.biases.data() + o;
         for (int k = 0; k < job.outputs; ++k) {
-          job.biases[k] = layer.biases[static_cast<std::size_t>(o + k)];
+          job.biases[k] = biases[k];
           job.to[k] = output.row(o + k, y);
         }
         convolve_row(job);
@@ -206,7 +214,7 @@ void convolveReference(const ConvolutionLayer& layer, const FeatureMaps& input, 
     for (int y = 0; y < output.height(); ++y) {
       for (int x = 0; x < output.width(); ++x) {
         float sum = layer.biases[static_cast<std::size_t>(o)];
-        std::size_t w = static_cast<std::size_t>(o * layer.inputs * layer.kernel * layer.kernel);
+        std::size_t w = product({o, layer.inputs, layer.kernel, layer.kernel});
         for (int i = 0; i < layer.inputs; ++i) {
           for (int ky = 0; ky < layer.kernel; ++ky) {
             for (int kx = 0; kx < layer.kernel; ++kx, ++w) {

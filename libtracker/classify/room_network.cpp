@@ -28,7 +28,8 @@ ConvolutionLayer readLayer(ByteReader& file) {
   layer.dilation = static_cast<int>(file.count(2));
   file.check(layer.inputs > 0 && layer.outputs > 0 && layer.kernel % 2 == 1 && layer.stride > 0 && layer.dilation > 0);
   file.check(layer.dilation * (layer.kernel / 2) <= FeatureMaps::kBorder);
-  const auto taps = static_cast<std::size_t>(layer.inputs * layer.kernel * layer.kernel);
+  const auto taps = static_cast<std::size_t>(layer.kernel) * static_cast<std::size_t>(layer.kernel) *
+                    static_cast<std::size_t>(layer.inputs);
   layer.weights.resize(static_cast<std::size_t>(layer.outputs) * taps);
   layer.biases.resize(static_cast<std::size_t>(layer.outputs));
   for (std::vector<float>* values : {&layer.weights, &layer.biases}) {
