@@ -62,7 +62,8 @@ fs::path truthPoseFile(const EvaluateOptions& options) {
 
 std::optional<PoseFigures> poseFigures(const EvaluateOptions& options) {
   if (options.pose.empty()) return std::nullopt;
-  return evaluatePoses(readPoseFile(options.pose, options.person), readPoseFile(truthPoseFile(options)), options.evaluation);
+  return evaluatePoses(readPoseFile(options.pose, options.person), readPoseFile(truthPoseFile(options)),
+                       options.evaluation);
 }
 
 Json report(const JointFigures& joints, const std::optional<PoseFigures>& poses, const EvaluationOptions& options) {
@@ -89,8 +90,9 @@ Json report(const JointFigures& joints, const std::optional<PoseFigures>& poses,
 
 void evaluate(const EvaluateOptions& options) {
   const std::optional<PoseFigures> poses = poseFigures(options);
-  const JointFigures joints = evaluateJoints(
-      readJointsFile(options.joints, options.person), readJointsFile(truthFile(options.truth, "joints.csv")), options.evaluation);
+  const JointFigures joints =
+      evaluateJoints(readJointsFile(options.joints, options.person),
+                     readJointsFile(truthFile(options.truth, "joints.csv")), options.evaluation);
   std::cout << report(joints, poses, options.evaluation).dump(2) << '\n';
 }
 

@@ -1,5 +1,7 @@
 #include "libtracker/tracker/scene_observer.h"
 
+#include <functional>
+
 namespace depthmocap {
 
 SceneObserver::SceneObserver(const Models& models, const CameraModel& camera, const TrackerConfig& config)
@@ -11,13 +13,14 @@ SceneObserver::SceneObserver(const Models& models, const CameraModel& camera, co
 
 const Segmentation& SceneObserver::segment(const DepthFrame& frame, const ExpectedPeople& expected) {
   bool looked = false;
-  const RoomLook look = [&]() -> const RoomMap& {
+  const auto ask = [&]() -> const RoomMap& {
     if (!looked) {
       room_->classify(frame.depth, camera_, range_.min_depth_m, range_.max_depth_m, threads_, room_memory_, map_);
     }
     looked = true;
     return map_;
   };
+  const RoomLook look = std::ref(ask);  // no copy: nothing is allocated
   segmenter_.segment(frame.depth, camera_, look, expected, segmentation_);
   return segmentation_;
 }
