@@ -14,10 +14,12 @@
 #include "apps/commands.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
+#include "apps/terminal/turn_option.h"
 #include "calibration/calibration_run.h"
 #include "calibration/other_frames.h"
 #include "depthmocap/error.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/recording/turned_recording.h"
 #include "libtracker/sensor/open_source.h"
 
 namespace depthmocap {
@@ -39,6 +41,7 @@ struct CalibrateOptions {
   CalibratorConfig config;
   double tolerance_deg = 15;
   double seconds = 60;
+  int turn_deg = 0;  // clockwise, that makes the pictures upright
 };
 
 bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame) {
@@ -115,14 +118,16 @@ CalibrationRun newRun(const CalibrateOptions& o, const RecordingInfo& info) {
 }
 
 Calibration calibrateLive(const CalibrateOptions& o) {
-  const auto source = openSource(o.recording.string(), {});
+  SourceOptions options;
+  options.turn_deg = o.turn_deg;
+  const auto source = openSource(o.recording.string(), options);
   CalibrationRun run = newRun(o, source->info());
   const OtherFrames others = watch(*source, run, o.seconds);
   return finish(o, run, others, source->info().camera);
 }
 
 Calibration calibrateRecording(const CalibrateOptions& o) {
-  const auto reader = openRecording(o.recording);
+  const auto reader = turnedRecording(openRecording(o.recording), o.turn_deg);
   CalibrationRun run = newRun(o, reader->info());
   collect(*reader, run);
   return finish(o, run, othersOf(*reader), reader->info().camera);
@@ -152,6 +157,7 @@ void addCalibrateCommand(CLI::App& app) {
                    "Recording with at least ten frames of T-pose, or a camera as live names it")
       ->type_name("REC-or-SRC")
       ->required();
+  addTurnOption(*command, o->turn_deg);
   command->add_option("--out", o->out, "Actor file to write, for replay --actor")->type_name("A.json")->required();
   command->add_option("--preview", o->preview, "Picture of the fitted cylinders over the depth points, PNG")
       ->type_name("P.png");

@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
+#include "apps/terminal/turn_option.h"
 #include "apps/track/seen_depth.h"
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
@@ -94,12 +95,7 @@ void addReplayCommand(CLI::App& app) {
       ->required();
   addTrackOptions(*command, options->track);
   addLookAheadOption(*command, options->session.look_ahead_s);
-  command
-      ->add_option("--turn", options->turn_deg,
-                   "A camera on its side or upside down: degrees clockwise that make its pictures upright")
-      ->type_name("DEG")
-      ->check(CLI::IsMember({0, 90, 180, 270}))
-      ->capture_default_str();
+  addTurnOption(*command, options->turn_deg);
   command->add_option("--first", options->session.first_frame, "First frame number to track");
   command->add_option("--last", options->session.last_frame, "Last frame number to track");
   command->footer(

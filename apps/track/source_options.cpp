@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/terminal/turn_option.h"
 #include "libtracker/recording/recording_header.h"
 #include "libtracker/sensor/driver_table.h"
 
@@ -40,6 +41,7 @@ void addSourceOptions(CLI::App& command, SourceChoice& c) {
                   "camera says, or those usual for its picture size)")
       ->type_name("C.json")
       ->check(CLI::ExistingFile);
+  addTurnOption(command, c.of_driver.turn_deg);
   for (const CameraDriver& driver : cameraDrivers().drivers()) {
     for (const DriverOption& option : driver.options) addDriverOption(command, option, c.of_driver);
   }

@@ -4,6 +4,7 @@
 
 #include "libtracker/core/parse_number.h"
 #include "libtracker/sensor/driver_table.h"
+#include "libtracker/sensor/turned_source.h"
 
 namespace depthmocap {
 
@@ -12,7 +13,7 @@ std::string checkSourceName(const std::string& name) {
 }
 
 std::unique_ptr<DepthSource> openSource(const std::string& name, const SourceOptions& options) {
-  return cameraDrivers().open(name, options);
+  return turnedSource(cameraDrivers().open(name, options), options.turn_deg);
 }
 
 std::optional<DepthMode> parseDepthMode(const std::string& text) {

@@ -15,6 +15,7 @@ struct SourceOptions {
   std::optional<RecordingInfo> camera;  // intrinsics, distortion and depth unit; none: what the camera says itself
   std::string pixel_format;             // V4L2 fourcc; empty: the best one that the camera offers
   std::optional<double> depth_unit_m;   // [m] a depth step; none: by the pixel format
+  int turn_deg = 0;  // (0, 90, 180, 270) clockwise, that makes the pictures of a camera on its side upright
 };
 
 // Names are those of the drivers (driver_table.h). Error for another name, a camera that is not there or cannot be
