@@ -83,7 +83,7 @@ std::optional<Hypothesis> Person::fit(const PersonRegion& region) {
   if (!enough(region)) return std::nullopt;
   if (!prediction_.has_pose) {
     std::optional<Hypothesis> first = adopt(fitFromAnySide(evidence_.pixels.facing, memory.size()));
-    return first && (!region.in_room || showsHead(*first)) ? first : std::nullopt;
+    return first && (!region.in_room || showsHeadAndNeck(*first)) ? first : std::nullopt;
   }
   Hypothesis pose =
       fitter_.fitNext(evidence_, prediction_, memory.actor(), config_.policy.hold_feet ? &memory.contacts() : nullptr);
@@ -95,11 +95,12 @@ std::optional<Hypothesis> Person::fit(const PersonRegion& region) {
   return pose;
 }
 
-// Things in rooms that were taken for somebody have no head where a body would.
-bool Person::showsHead(const Hypothesis& pose) {
+// Things in rooms that were taken for somebody have no head on a neck where a body would.
+bool Person::showsHeadAndNeck(const Hypothesis& pose) {
   const MarkerSet model = rotated(R_world_camera_.transpose(), modelMarkers(pose.body->actor(), pose.q, fk_));
   const auto confidence = jointConfidence(evidence_.markers_camera, model);
-  return confidence[static_cast<int>(Joint::Head)] >= config_.policy.min_head;
+  return std::min(confidence[static_cast<int>(Joint::Head)], confidence[static_cast<int>(Joint::Neck)]) >=
+         config_.policy.min_head;
 }
 
 // The image keeps saying that the actor is seen from another side than the pose says: the pose that explains the image

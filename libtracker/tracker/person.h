@@ -34,7 +34,7 @@ class Person {
   std::optional<Hypothesis> fitFromAnySide(const FacingShares& shares, const SizeAdapter& body);
   std::optional<Hypothesis> turnAround(const Hypothesis& tracked);
   std::optional<Hypothesis> adopt(std::optional<Hypothesis> found);
-  [[nodiscard]] bool showsHead(const Hypothesis& pose);
+  [[nodiscard]] bool showsHeadAndNeck(const Hypothesis& pose);
   [[nodiscard]] bool enough(const PersonRegion& region) const;
   void report(const PersonRegion& region, const UprightWorld& world, const std::optional<Hypothesis>& pose);
 

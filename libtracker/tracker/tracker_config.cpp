@@ -32,7 +32,7 @@ std::vector<ConfigField> TrackPolicy::fields() {
       {"min_markers", &min_markers, "markers", fromTo(1, kPartCount), "Fewer seen markers are not enough for a pose"},
       {"min_visible", &min_visible, "", fromTo(0, 1), "A smaller visible share of the actor is not enough either"},
       {"min_head", &min_head, "", fromTo(0, 1),
-       "In a room a first pose is not believed if the head's confidence is less"},
+       "In a room a first pose is not believed if the confidence of the head or the neck is less"},
       {"max_rms_m", &max_rms_m, "m", above(0), "A worse fit of the seen markers is not believed"},
       {"suspect_rms_m", &suspect_rms_m, "m", above(0), "Above it a global search competes with the tracked pose"},
       {"switch_gain", &switch_gain, "", between(0, 1),
