@@ -13,10 +13,10 @@ namespace depthmocap {
 
 // When a pose is believed, carried on, given up and looked for again.
 struct TrackPolicy {
-  int min_markers = 5;           // (1 .. 15) fewer seen markers are not enough evidence for a pose
-  double min_visible = 0.45;     // [0 .. 1] of the actor, where something hides the rest; less is not enough either
-  double min_head = 0.3;         // [0 .. 1] confidence of head and neck below which a first pose in a room is not believed
-  double max_rms_m = 0.15;       // [m] a worse fit of the seen markers is not believed
+  int min_markers = 5;        // (1 .. 15) fewer seen markers are not enough evidence for a pose
+  double min_visible = 0.45;  // [0 .. 1] of the actor, where something hides the rest; less is not enough either
+  double min_head = 0.3;      // [0 .. 1] confidence of head and neck below which a first pose in a room is not believed
+  double max_rms_m = 0.15;    // [m] a worse fit of the seen markers is not believed
   double suspect_rms_m = 0.065;  // [m] above it a global search competes with the tracked pose
   double switch_gain = 0.6;      // (0 .. 1) the global pose wins if its energy is below this share of the tracked one's
   double coast_s = 0.4;          // [s] a pose is carried on without evidence, then the actor is lost
