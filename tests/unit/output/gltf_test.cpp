@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "libtracker/body/pose_surface.h"
 #include "libtracker/core/random.h"
 #include "libtracker/skeleton/forward_kinematics.h"
+#include "tests/support/temporary_folder.h"
 
 namespace depthmocap {
 namespace {
@@ -188,6 +190,39 @@ TEST(MotionTrack, RestsWhileLostAndStartsWithTheFirstPose) {
   }
   EXPECT_TRUE(track.sizeChanges());
   EXPECT_NEAR(track.frameTime_s(30), 0.1, 1e-12);
+}
+
+TEST(Gltf, SeveralPeopleHaveASkeletonASkinAndChannelsEach) {
+  const BodySurface body = makeBuiltinBody(averageBoneLengths(1.7));
+  std::vector<GltfPerson> people;
+  for (const int number : {1, 3}) {
+    MotionTrackBuilder motion;
+    for (int i = 0; i < 4; ++i) {
+      Pose q = Pose::Zero();
+      q[kRootTx] = number;
+      motion.add(1.0 + 0.1 * (i + number), q, body.skeleton.lengths);
+    }
+    people.push_back({number, body, motion.track(body.skeleton.lengths)});
+  }
+  const TemporaryFolder folder;
+  writeGltf(folder / "two.glb", people);
+  const Glb glb(readBytes(folder / "two.glb"));
+  EXPECT_EQ(glb.document["skins"].size(), 2U);
+  EXPECT_EQ(glb.document["meshes"].size(), 2U);
+  EXPECT_EQ(glb.document["scenes"][0]["nodes"].size(), 2U);
+  const json& nodes = glb.document["nodes"];
+  EXPECT_EQ(nodes[glb.document["scenes"][0]["nodes"][1].get<std::size_t>()]["name"], "Armature-3");
+  // Each person's channels move nodes of that person's skin.
+  std::array<int, 2> channels{};
+  for (const json& channel : glb.document["animations"][0]["channels"]) {
+    const json node = channel["target"]["node"];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const json& joints = glb.document["skins"][k]["joints"];
+      channels[k] += std::find(joints.begin(), joints.end(), node) != joints.end() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(channels[0], 10);
+  EXPECT_EQ(channels[0], channels[1]);
 }
 
 }  // namespace
