@@ -26,6 +26,7 @@ Tracker makeTracker(const CameraModel& camera, const SessionOptions& options) {
   validate(options);
   TrackerConfig config;
   config.threads = options.threads;
+  config.people = options.people;
   std::optional<Actor> actor;
   if (options.actor) actor = asSeen(*options.actor);
   return {options.models ? *options.models : Models::shipped(), camera, config, actor};
@@ -34,7 +35,15 @@ Tracker makeTracker(const CameraModel& camera, const SessionOptions& options) {
 class Callback : public FrameSink {
  public:
   explicit Callback(const std::function<void(const TrackedFrame&, const DepthFrame&)>& call) : call_(call) {}
-  void onFrame(const SessionFrame& frame) override { call_(frame.tracked, frame.depth); }
+  void onFrame(const SessionFrame& frame) override {
+    bool anybody = false;
+    for (const TrackedFrame* person : frame.people) {
+      if (person->state == TrackState::Lost) continue;
+      anybody = true;
+      call_(*person, frame.depth);
+    }
+    if (!anybody) call_(frame.tracked, frame.depth);
+  }
 
  private:
   const std::function<void(const TrackedFrame&, const DepthFrame&)>& call_;

@@ -23,6 +23,7 @@ struct SessionOptions {
   std::optional<double> look_ahead_s{};
   double smooth = 0;                               // [0, 1] of the output filter; 0 = off
   double seconds = 0;                              // [s] (>= 0) of a camera's time; 0 = until it ends or `stopped`
+  int people = 1;                                  // (1 .. 6) tracked at the same time
   int threads = 2;                                 // (>= 1) for the tracker; results do not depend on it
   std::function<bool()> stopped{};                 // asked between frames; true ends the run. May be empty
   std::function<void(const std::string&)> warn{};  // told of each frame that cannot be read. May be empty
@@ -38,6 +39,7 @@ class DEPTHMOCAP_API Session {
   Session(Session&& other) noexcept;
   Session& operator=(Session&& other) noexcept;
 
+  // Of several people the callback is called for each who is there (TrackedFrame::person), or once where nobody is.
   // Tracks, and calls back for each frame, in order, on this thread; what the callback gets is valid during the call
   // only. Throws what the callback throws.
   // A recording: every frame, the same results as `depthmocap replay`. A frame that cannot be read counts as one

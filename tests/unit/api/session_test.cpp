@@ -57,6 +57,16 @@ TEST_F(ExcerptSession, RunsAgainWithTheSameResult) {
   EXPECT_EQ(jointsOf(session), first);
 }
 
+TEST_F(ExcerptSession, OfSeveralPeopleThoseWhoAreThereAreToldOf) {
+  SessionOptions several = options();
+  several.people = 3;
+  Session session(Recording(recording()), several);
+  std::vector<int> people;
+  session.run([&](const TrackedFrame& frame) { people.push_back(frame.person); });
+  EXPECT_FALSE(people.empty());
+  for (const int person : people) EXPECT_EQ(person, 1) << "one is there";
+}
+
 TEST_F(ExcerptSession, AGivenActorKeepsItsSize) {
   SessionOptions o = options();
   o.actor = averageActor(1.60);
