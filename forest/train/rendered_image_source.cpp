@@ -60,26 +60,13 @@ void RenderedImageSource::render(std::size_t i, TrainingImage& image) {
   const BodySurface& body = (*bodies_)[random.below(static_cast<std::uint32_t>(bodies_->size()))];
   const Pose q = options_.t_poses ? drawTPose(random) : drawPose(*poses_, options_.variation, random);
   TrainingView view;
-  auto renderer = takeRenderer();
+  auto renderer = renderers_.take([this] { return std::make_unique<TrainingViewRenderer>(options_.view); });
   renderer->render(body, q, random, view);
-  giveBack(std::move(renderer));
+  renderers_.giveBack(std::move(renderer));
   image.depth = std::move(view.depth);
   image.labels = std::move(view.parts);
   image.focal_px = view.camera.fx;
   image.facing = facingOf(view.q_world);
-}
-
-std::unique_ptr<TrainingViewRenderer> RenderedImageSource::takeRenderer() {
-  const std::lock_guard lock(mutex_);
-  if (idle_.empty()) return std::make_unique<TrainingViewRenderer>(options_.view);
-  auto renderer = std::move(idle_.back());
-  idle_.pop_back();
-  return renderer;
-}
-
-void RenderedImageSource::giveBack(std::unique_ptr<TrainingViewRenderer> renderer) {
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(renderer));
 }
 
 }  // namespace depthmocap

@@ -1,11 +1,11 @@
 #pragma once
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "forest/render/training_view.h"
 #include "forest/train/pose_pool.h"
+#include "forest/train/renderer_pool.h"
 #include "forest/train/training_image.h"
 #include "libtracker/body/body_surface.h"
 
@@ -37,17 +37,12 @@ class RenderedImageSource : public TrainingImageSource {
   [[nodiscard]] std::size_t count() const override { return options_.count; }
   [[nodiscard]] std::string description() const override;
   void render(std::size_t i, TrainingImage& image) override;
-  [[nodiscard]] const RenderedImageOptions& options() const { return options_; }
 
  private:
-  std::unique_ptr<TrainingViewRenderer> takeRenderer();
-  void giveBack(std::unique_ptr<TrainingViewRenderer> renderer);
-
   std::shared_ptr<const std::vector<BodySurface>> bodies_;
   std::shared_ptr<const PosePool> poses_;
   RenderedImageOptions options_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<TrainingViewRenderer>> idle_;  // one a thread that has been here
+  RendererPool<TrainingViewRenderer> renderers_;
 };
 
 }  // namespace depthmocap

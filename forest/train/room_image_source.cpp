@@ -28,27 +28,14 @@ std::string RoomImageSource::description() const {
 void RoomImageSource::render(std::size_t i, TrainingImage& image) {
   Random random(options_.seed + i, kRoomStream);
   RoomView view;
-  auto renderer = takeRenderer();
+  auto renderer = renderers_.take([this] { return std::make_unique<RoomViewRenderer>(options_.view); });
   renderer->render(
       *bodies_, [&](Random& r) { return drawPose(*poses_, options_.variation, r); }, random, view);
-  giveBack(std::move(renderer));
+  renderers_.giveBack(std::move(renderer));
   image.depth = std::move(view.depth);
   image.labels = std::move(view.classes);
   image.focal_px = view.camera.fx;
   image.facing.reset();
-}
-
-std::unique_ptr<RoomViewRenderer> RoomImageSource::takeRenderer() {
-  const std::lock_guard lock(mutex_);
-  if (idle_.empty()) return std::make_unique<RoomViewRenderer>(options_.view);
-  auto renderer = std::move(idle_.back());
-  idle_.pop_back();
-  return renderer;
-}
-
-void RoomImageSource::giveBack(std::unique_ptr<RoomViewRenderer> renderer) {
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(renderer));
 }
 
 }  // namespace depthmocap

@@ -1,11 +1,11 @@
 #pragma once
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "forest/render/room_view.h"
 #include "forest/train/pose_pool.h"
+#include "forest/train/renderer_pool.h"
 #include "forest/train/training_image.h"
 
 namespace depthmocap {
@@ -30,14 +30,10 @@ class RoomImageSource : public TrainingImageSource {
   void render(std::size_t i, TrainingImage& image) override;
 
  private:
-  std::unique_ptr<RoomViewRenderer> takeRenderer();
-  void giveBack(std::unique_ptr<RoomViewRenderer> renderer);
-
   std::shared_ptr<const std::vector<BodySurface>> bodies_;
   std::shared_ptr<const PosePool> poses_;
   RoomImageOptions options_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<RoomViewRenderer>> idle_;  // one a thread that has been here
+  RendererPool<RoomViewRenderer> renderers_;
 };
 
 }  // namespace depthmocap

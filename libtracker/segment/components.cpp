@@ -108,8 +108,7 @@ void ComponentFinder::measure(const CoarseCloud& cloud, const Eigen::Vector3f& u
       c.bottom_m = std::min(c.bottom_m, height);
       c.top_m = std::max(c.top_m, height);
       c.touches_side |= x == 0 || x == cloud.width - 1;
-      c.touches_top |= y == 0;
-      c.touches_border |= c.touches_side || c.touches_top || y == cloud.height - 1;
+      c.touches_border |= c.touches_side || y == 0 || y == cloud.height - 1;
       const Eigen::Vector3d pd = p.cast<double>();
       moments_[label].noalias() += pd * pd.transpose();
     }

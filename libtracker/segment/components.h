@@ -21,8 +21,7 @@ struct Component {
   float thickness_m = 0;  // standard deviation across its best plane
   bool touches_border = false;
   bool touches_side = false;  // the left or the right border
-  bool touches_top = false;
-  Identity who = kUnknown;  // of a fair share of its cells
+  Identity who = kUnknown;    // of a fair share of its cells
 
   [[nodiscard]] float height() const { return top_m - bottom_m; }
   [[nodiscard]] float widthX() const { return high.x() - low.x(); }

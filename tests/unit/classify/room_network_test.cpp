@@ -58,7 +58,7 @@ TEST(RoomNetwork, MissingFileIsAnError) {
   EXPECT_THROW(loadRoomNetwork("no/such.network"), Error);
 }
 
-// A wall, and somebody of ellipsoids' size before it would be another test; here: sizes, borders, threads.
+// Sizes, borders and threads; whether people are found is for tests/unit/tracker and scripts/measure-rooms.
 TEST(RoomClassifier, AnswersForEverySizeAndNumberOfThreads) {
   const RoomClassifier classifier(loadRoomNetwork(kShipped));
   for (const auto& [width, height] : {std::pair{640, 480}, {512, 424}, {480, 640}, {211, 157}, {1280, 720}, {40, 30}}) {

@@ -36,7 +36,7 @@ TEST(Components, OneSurfaceIsOneComponentWithItsMeasures) {
   EXPECT_NEAR(c.widthX(), 0.38F, 1e-6F);
   EXPECT_NEAR(c.bottom_m, -0.18F, 1e-6F);  // y points down
   EXPECT_LT(c.thickness_m, 0.005F);
-  EXPECT_TRUE(c.touches_top && c.touches_side);
+  EXPECT_TRUE(c.touches_border && c.touches_side);
   EXPECT_TRUE(c.touches_border);
 }
 

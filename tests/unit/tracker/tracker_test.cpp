@@ -91,6 +91,24 @@ TEST(Tracker, FollowsAWalk) {
   EXPECT_NEAR(tracker.actor().stature_m(), 1.80, 0.10) << "the size of the first second; 1.72 at the start";
 }
 
+// The actor of a recording without background, before a wall.
+DepthFrame beforeAWall(DepthFrame frame) {
+  constexpr float kWall_m = 4.6F;
+  for (float& z : frame.depth.data) z = z > 0 ? z : kWall_m;
+  return frame;
+}
+
+TEST(Tracker, AFirstPoseInARoomNeedsAHeadOnANeck) {
+  TrackerConfig strict;
+  strict.policy.min_head = 1;  // more than any head has
+  Tracker usual(models(), walk().camera);
+  Tracker doubting(models(), walk().camera, strict);
+  Tracker without_room(models(), walk().camera, strict);
+  EXPECT_EQ(usual.process(beforeAWall(walk().frames[0])).state, TrackState::Tracking);
+  EXPECT_EQ(doubting.process(beforeAWall(walk().frames[0])).state, TrackState::Lost);
+  EXPECT_EQ(without_room.process(walk().frames[0]).state, TrackState::Tracking) << "nobody else can be meant";
+}
+
 TEST(Tracker, GivesTheSamePosesForAnyNumberOfThreads) {
   TrackerConfig one, three;
   one.threads = 1;
