@@ -1,5 +1,7 @@
 #pragma once
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "libtracker/segment/coarse_cloud.h"
@@ -11,5 +13,12 @@ namespace depthmocap {
 // the actor's.
 bool isPartlyHidden(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep,
                     const std::vector<std::int32_t>& labels, const std::vector<std::uint8_t>& selected);
+
+// True where the actor's lower end is not in view: below most of the actor's columns lies something nearer or the end
+// of the picture, or the floor, where it is known, is far below. Arguments as of isPartlyHidden(); `floor`: plane n.p +
+// d = 0, n up, camera frame.
+bool isCutBelow(const CoarseCloud& cloud, const std::vector<std::uint8_t>& keep,
+                const std::vector<std::int32_t>& labels, const std::vector<std::uint8_t>& selected,
+                const std::optional<Eigen::Vector4f>& floor);
 
 }  // namespace depthmocap

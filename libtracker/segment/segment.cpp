@@ -115,7 +115,7 @@ struct Segmenter::Impl {
   void weighComponents();
   Choice choose(const ExpectedActor* expected, Identity who);
   void take(const Choice& choice, Identity who);
-  [[nodiscard]] double visibleShare(Followed& person);
+  void seeHowMuch(Followed& person, PersonRegion& region) const;
   void rememberPeople();
   void noteCompany(const Choice& choice, Identity who);
   void summarise(const DepthImage& depth, const CameraModel& camera, PersonRegion& out) const;
@@ -243,16 +243,21 @@ void Segmenter::Impl::take(const Choice& choice, Identity who) {
   }
 }
 
-double Segmenter::Impl::visibleShare(Followed& person) {
+// How much of the selected pieces' person is in view.
+void Segmenter::Impl::seeHowMuch(Followed& person, PersonRegion& region) const {
   float area = 0;
   for (std::size_t k = 0; k < selected.size(); ++k) area += selected[k] != 0 ? finder.components()[k].area_m2 : 0.0F;
-  const bool hidden = isPartlyHidden(cloud, off_floor, finder.labels(), selected);
+  region.covered = isPartlyHidden(cloud, off_floor, finder.labels(), selected);
+  const bool use_floor = !cut_out && floor;
+  region.cut_below =
+      isCutBelow(cloud, off_floor, finder.labels(), selected, use_floor ? std::optional(floor->plane) : std::nullopt);
   if (person.usual_area_m2 <= 0) {
     person.usual_area_m2 = area;
-  } else if (!hidden && area > 0) {
+  } else if (!region.covered && area > 0) {
     person.usual_area_m2 += kUsualRate * (area - person.usual_area_m2);
   }
-  return hidden && area > 0 ? std::min(1.0, static_cast<double>(area / person.usual_area_m2)) : 1.0;
+  region.visible_share =
+      region.covered && area > 0 ? std::min(1.0, static_cast<double>(area / person.usual_area_m2)) : 1.0;
 }
 
 // A component that could have been chosen and was not is somebody else's from now on; but not while one of those who
@@ -328,7 +333,7 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, cons
       region.in_room = !s.cut_out;
       s.choices[i] = s.choose(expected[i] ? &*expected[i] : nullptr, who);
       s.take(s.choices[i], who);
-      region.visible_share = s.visibleShare(s.people[i]);
+      s.seeHowMuch(s.people[i], region);
       s.people[i].plain = s.choices[i].sure && region.visible_share >= kPlain;
       refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, region.mask);
       s.summarise(depth, camera, region);

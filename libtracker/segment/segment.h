@@ -44,7 +44,10 @@ struct PersonRegion {
   MaskImage mask;       // 1 on the person; nobody = all 0
   int pixel_count = 0;  // [px] in the mask
   bool touches_border = false;
-  bool in_room = false;      // the background is in the image, too
+  bool in_room = false;  // the background is in the image, too
+  bool covered = false;  // something nearer covers a part
+  bool cut_below =
+      false;  // the lower end is not in view: covered, beyond the picture, or not measured down to the floor
   double visible_share = 1;  // (0, 1] of what is usually in view; below 1 where something nearer covers a part
   Eigen::Vector3d centroid_camera = Eigen::Vector3d::Zero();  // [m]
 };

@@ -17,6 +17,7 @@ struct Hypothesis {
   Facing facing = Facing::Front;         // the side that the pose was found for, and
   double cost = 0;                       // [energy] against the poses of other sides
   std::optional<double> observed_scale;  // size of the actor over that of the body in use; set while it is being fitted
+  bool whole_in_view = false;            // the scale is of a whole person
 };
 
 }  // namespace depthmocap

@@ -10,9 +10,11 @@
 #include "libtracker/tracker/dense_refinement.h"
 #include "libtracker/tracker/evidence.h"
 #include "libtracker/tracker/global_search.h"
+#include "libtracker/tracker/hidden_legs.h"
 #include "libtracker/tracker/hypothesis.h"
 #include "libtracker/tracker/prediction.h"
 #include "libtracker/tracker/tracker_config.h"
+#include "libtracker/tracker/upright_world.h"
 
 namespace depthmocap {
 
@@ -23,8 +25,7 @@ class PoseFitter {
   PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor& body, const TrackerConfig& config);
 
   // The image that the next evidence is of; depth and region must outlive the calls for this frame.
-  void look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
-            const Eigen::Matrix3d& R_world_camera);
+  void look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera, const UprightWorld& world);
 
   // (3) and (4) for fitNext(): the poses nearest to the markers and to the pose before, and the local model over them.
   void buildPrior(const Evidence& evidence, const Prediction& prediction, const Actor& actor);
@@ -40,10 +41,14 @@ class PoseFitter {
   // The energy without what the frames before say.
   [[nodiscard]] double energyOfImage(const MapSummary& fit) const;
   // How much larger the actor is than this body: by the height of the whole person where it is in view, else by the
-  // markers; 1 if neither can tell.
+  // markers and by the assumed stature.
   double observedScale(const Evidence& evidence, const Actor& actor, const Pose& q);
+  // Nothing hides or cuts off a part of the actor.
+  [[nodiscard]] bool wholeInView() const { return whole_in_view_; }
 
  private:
+  // Supposed markers say nothing about how well a pose fits: its summary is to speak of those that were seen.
+  void judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary) const;
   [[nodiscard]] double searchScale(const Actor& actor) const { return actor.stature_m() / search_stature_m_; }
 
   const TrackerConfig config_;
@@ -54,6 +59,7 @@ class PoseFitter {
   MapSolver solver_;
   GlobalSearch global_;
   DenseRefinement dense_;
+  HiddenLegs legs_;
   std::vector<PoseNeighbour> neighbours_;
   LocalPrior prior_;
   bool whole_in_view_ = false;  // of the present image

@@ -13,7 +13,8 @@ class SizeAdapter {
 
   [[nodiscard]] const Actor& actor() const { return actor_; }
   [[nodiscard]] bool adapting() const { return remaining_s_ > 0; }
-  // `scale`: how much larger than the present skeleton one frame's markers are; `dt_s`: time that the frame stands for.
+  // `scale`: how much larger than the present skeleton one frame's markers are; `dt_s`: time that the frame stands for,
+  // 0 for one that shows too little to settle the size.
   void observe(double scale, double dt_s);
   // The present size times `scale`, at once: for the first pose.
   void rescale(double scale);

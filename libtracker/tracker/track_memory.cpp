@@ -60,7 +60,7 @@ void TrackMemory::accept(const Hypothesis& pose, const Prediction& prediction,
     size_ = *pose.body;
     disputed_frames_ = 0;
   }
-  if (pose.observed_scale) size_.observe(*pose.observed_scale, prediction.dt_s);
+  if (pose.observed_scale) size_.observe(*pose.observed_scale, pose.whole_in_view ? prediction.dt_s : 0.0);
   if (pose.fresh) return feet_.reset();
   feet_.observe(actor().skeleton, pose.q, prediction.time_s, floor_world);
 }

@@ -204,6 +204,20 @@ TEST(Segment, ActorLeavingTheImageTouchesTheBorder) {
   EXPECT_GT(result.actor().pixel_count, 10000);
 }
 
+TEST(Segment, LegsBeyondThePictureOrBehindSomethingAreCutBelow) {
+  TestScene whole;
+  whole.addPerson(kActor, kFeet);
+  EXPECT_FALSE(segmentOnce(whole).actor().cut_below);
+  TestScene near;
+  near.addPerson(kActor, {0.0, 1.5, 1.3});
+  EXPECT_TRUE(segmentOnce(near).actor().cut_below);
+  TestScene behind;
+  behind.addPerson(kActor, kFeet);
+  behind.addPanel(kActor + 1, {0.0, kFeet.y() - 0.3, kFeet.z() - 0.5}, 0.6, 0.3);
+  const Segmentation seen = segmentOnce(behind);
+  EXPECT_TRUE(seen.actor().cut_below && seen.actor().covered);
+}
+
 TEST(Segment, MovedCameraIsNoticed) {
   TestScene before;
   addRoom(before);

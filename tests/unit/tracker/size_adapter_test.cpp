@@ -54,6 +54,12 @@ TEST(SizeAdapter, OneWildFrameMovesTheSizeByAQuarterAtMost) {
   EXPECT_NEAR(statureIn(size), 1.6 * 1.25, 1e-9);
 }
 
+TEST(SizeAdapter, FramesThatShowTooLittleDoNotSettleTheSize) {
+  SizeAdapter size = uncalibrated(1.6, 1.0);
+  for (int frame = 0; frame < 100; ++frame) size.observe(1.0, 0.0);
+  EXPECT_TRUE(size.adapting());
+}
+
 TEST(SizeAdapter, LeavesAActorAlone) {
   SizeAdapter size(averageActor(averageBoneLengths(1.9)), true, 3.0);
   EXPECT_FALSE(size.adapting());
