@@ -67,6 +67,7 @@ ImageMaker personImages(const DataOptions& data, std::uint64_t seed, const Image
 ImageMaker roomImages(const DataOptions& data, std::uint64_t seed, const ImageSet& set) {
   RoomImageOptions options;
   options.seed = seed;
+  options.view.sitter_share = data.sitter_share;
   options.variation.posture_share = data.posture_share;
   return [options, bodies = set.bodies, poses = set.poses](std::size_t count) mutable {
     options.count = count;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "forest/render/room_view.h"
 #include "forest/train/pose_pool.h"
 #include "forest/train/rendered_image_source.h"
 
@@ -25,6 +26,7 @@ struct DataOptions {
   bool rooms = false;
   bool plain = false;
   double posture_share = 0;
+  double sitter_share = RoomViewConfig{}.sitter_share;  // of rooms
   std::optional<double> carried_share;   // none: TrainingViewConfig's, or 0 with plain
   std::optional<double> obstacle_share;  // likewise
   std::vector<std::string> exclude;

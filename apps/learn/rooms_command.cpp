@@ -60,6 +60,14 @@ void drawRooms(const DataOptions& data, PoseUse use, std::size_t images, const s
   std::cerr << set.source->description() << '\n';
 }
 
+void addRoomOptions(CLI::App& command, DataOptions& data) {
+  data.rooms = true;
+  addDataOptions(command, data);
+  command.add_option("--sitter-share", data.sitter_share, "Share of the people whose pose is drawn anew until it sits")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
 void addRoomsDraw(CLI::App& rooms) {
   struct Options {
     DataOptions data;
@@ -68,12 +76,11 @@ void addRoomsDraw(CLI::App& rooms) {
     bool held_out = false;
   };
   auto c = std::make_shared<Options>();
-  c->data.rooms = true;
   CLI::App* command = rooms.add_subcommand("draw", "Renders furnished rooms for scripts/train-rooms to learn from");
   command->add_option("--out", c->out, "File of pictures with labels")->required();
   command->add_option("--images", c->images, "Rooms to render")->capture_default_str();
   command->add_flag("--held-out", c->held_out, "Rooms, bodies and poses that training never sees");
-  addDataOptions(*command, c->data);
+  addRoomOptions(*command, c->data);
   command->callback([c] { drawRooms(c->data, c->held_out ? PoseUse::Validate : PoseUse::Train, c->images, c->out); });
 }
 
@@ -85,7 +92,6 @@ void addRoomsMeasure(CLI::App& rooms) {
     int people = kMostPeople;
   };
   auto c = std::make_shared<Options>();
-  c->data.rooms = true;
   CLI::App* command =
       rooms.add_subcommand("measure", "Measures how well people are found in furnished rooms, on held-out renders");
   command->add_option("FILE", c->file, "Network, of scripts/train-rooms")->required();
@@ -93,7 +99,7 @@ void addRoomsMeasure(CLI::App& rooms) {
   command->add_option("--people", c->people, "Most people that are looked for in a picture")
       ->check(CLI::Range(1, kMostPeople))
       ->capture_default_str();
-  addDataOptions(*command, c->data);
+  addRoomOptions(*command, c->data);
   command->callback([c] {
     const RoomClassifier classifier(loadRoomNetwork(c->file));
     const ImageSet set = makeImageSet(c->data, PoseUse::Validate, c->images);

@@ -370,7 +370,9 @@ TriangleMesh drawSeat(double seat_m, Random& random) {
     addChair(mesh, random.uniform(0.38, 0.5), -0.22, random.uniform(0.15, 0.28), seat_m, random);
   } else if (choice < 0.82) {
     addOfficeChair(mesh, seat_m, random);
-  } else if (choice < 0.92) {  // a bed, a bench, a step
+  } else if (choice < 0.88) {
+    return drawSeatOf(Furniture::Bed, seat_m, random);
+  } else if (choice < 0.94) {  // a mattress, a bench, a step
     const double x = random.uniform(0.4, 1.1);
     addBlock(mesh, {-x, 0, -random.uniform(0.2, 1.2)}, {x, seat_m, random.uniform(0.1, 0.35)},
              random.uniform(kHard, kSoft));

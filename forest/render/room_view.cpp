@@ -27,8 +27,7 @@ constexpr double kBehindShare = 0.22;    // of the people with something before 
 constexpr double kCarryingShare = 0.08;  // of the people who carry something
 constexpr double kOutsideShare = 0.06;   // of the pictures without walls
 constexpr double kSeatedShare = 0.9;     // of the poses that sit and get a seat
-constexpr double kSitterShare = 0.2;     // of the people whose pose is drawn anew until it sits
-constexpr int kSitterDraws = 40;         // at most so often
+constexpr int kSitterDraws = 40;         // a pose that sits is looked for at most so often
 constexpr double kRowShare = 0.35;       // of the pictures of several who stand in a row
 constexpr double kCutOutShare = 0.06;    // of the pictures whose room was removed
 
@@ -138,7 +137,7 @@ void RoomViewRenderer::placePeople(std::span<const BodySurface> bodies, const st
     places.push_back(place);
     const BodySurface& body = bodies[random.below(static_cast<std::uint32_t>(bodies.size()))];
     Pose q = draw(random);
-    if (random.uniform() < kSitterShare) {
+    if (random.uniform() < config_.sitter_share) {
       for (int k = 0; k < kSitterDraws && !isSeated(body.skeleton, q); ++k) q = draw(random);
     }
     placeActor(body, q, place, random);

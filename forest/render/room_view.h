@@ -26,6 +26,7 @@ struct RoomViewConfig {
   double empty_share = 0.2;          // [0, 1] of the pictures without anybody
   double company_share = 0.4;        // [0, 1] of the pictures with people that have more than one
   int most_people = 5;               // (>= 2)
+  double sitter_share = 0.2;         // [0, 1] of the people whose pose is drawn anew until it sits
   double min_distance_m = 0.6;       // [m] camera to the actor, along the floor
   double max_distance_m = 4.6;       // [m]
   double min_camera_height_m = 0.3;  // [m]
