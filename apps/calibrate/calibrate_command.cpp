@@ -12,14 +12,13 @@
 
 #include "apps/calibrate/calibration_picture.h"
 #include "apps/commands.h"
+#include "apps/terminal/correction_options.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
-#include "apps/terminal/turn_option.h"
 #include "calibration/calibration_run.h"
 #include "calibration/other_frames.h"
 #include "depthmocap/error.h"
 #include "libtracker/recording/recording.h"
-#include "libtracker/recording/turned_recording.h"
 #include "libtracker/sensor/open_source.h"
 
 namespace depthmocap {
@@ -41,7 +40,7 @@ struct CalibrateOptions {
   CalibratorConfig config;
   double tolerance_deg = 15;
   double seconds = 60;
-  int turn_deg = 0;  // clockwise, that makes the pictures upright
+  CorrectionChoice correction;
 };
 
 bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame) {
@@ -119,7 +118,10 @@ CalibrationRun newRun(const CalibrateOptions& o, const RecordingInfo& info) {
 
 Calibration calibrateLive(const CalibrateOptions& o) {
   SourceOptions options;
-  options.turn_deg = o.turn_deg;
+  const RecordingCorrection correction = o.correction.read();
+  options.camera = correction.camera;
+  options.depth_unit_m = correction.depth_unit_m;
+  options.turn_deg = correction.turn_deg;
   const auto source = openSource(o.recording.string(), options);
   CalibrationRun run = newRun(o, source->info());
   const OtherFrames others = watch(*source, run, o.seconds);
@@ -127,7 +129,7 @@ Calibration calibrateLive(const CalibrateOptions& o) {
 }
 
 Calibration calibrateRecording(const CalibrateOptions& o) {
-  const auto reader = turnedRecording(openRecording(o.recording), o.turn_deg);
+  const auto reader = openRecording(o.recording, o.correction.read());
   CalibrationRun run = newRun(o, reader->info());
   collect(*reader, run);
   return finish(o, run, othersOf(*reader), reader->info().camera);
@@ -157,7 +159,7 @@ void addCalibrateCommand(CLI::App& app) {
                    "Recording with at least ten frames of T-pose, or a camera as live names it")
       ->type_name("REC-or-SRC")
       ->required();
-  addTurnOption(*command, o->turn_deg);
+  addCorrectionOptions(*command, o->correction);
   command->add_option("--out", o->out, "Actor file to write, for replay --actor")->type_name("A.json")->required();
   command->add_option("--preview", o->preview, "Picture of the fitted cylinders over the depth points, PNG")
       ->type_name("P.png");

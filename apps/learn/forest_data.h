@@ -27,8 +27,8 @@ struct DataOptions {
   bool plain = false;
   double posture_share = 0;
   double sitter_share = RoomViewConfig{}.sitter_share;  // of rooms
-  std::optional<double> carried_share;   // none: TrainingViewConfig's, or 0 with plain
-  std::optional<double> obstacle_share;  // likewise
+  std::optional<double> carried_share;                  // none: TrainingViewConfig's, or 0 with plain
+  std::optional<double> obstacle_share;                 // likewise
   std::vector<std::string> exclude;
   int bodies = 200;
   std::uint64_t seed = 1;

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "apps/commands.h"
+#include "apps/terminal/correction_options.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
-#include "apps/terminal/turn_option.h"
 #include "apps/track/seen_depth.h"
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
@@ -17,7 +17,6 @@
 #include "depthmocap/error.h"
 #include "depthmocap/tracker.h"
 #include "libtracker/recording/recording.h"
-#include "libtracker/recording/turned_recording.h"
 #include "libtracker/session/replay_session.h"
 
 namespace depthmocap {
@@ -28,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 struct ReplayOptions {
   fs::path recording;
-  int turn_deg = 0;  // clockwise, that makes the pictures upright
+  CorrectionChoice correction;
   TrackOptions track;
   ReplaySessionOptions session;
 };
@@ -58,7 +57,8 @@ void stayForView(ReplayView& view) {
 void replay(const ReplayOptions& o) {
   const auto start = Clock::now();
   const StopRequest on_ctrl_c;
-  const std::unique_ptr<RecordingReader> reader = turnedRecording(openRecording(o.recording), o.turn_deg);
+  const RecordingCorrection correction = o.correction.read();
+  const std::unique_ptr<RecordingReader> reader = openRecording(o.recording, correction);
   Tracker tracker(loadModels(o.track), reader->info().camera, trackerConfig(o.track), actorOf(o.track));
   ReplaySessionOptions options = o.session;
   options.smooth = o.track.smooth;
@@ -71,7 +71,7 @@ void replay(const ReplayOptions& o) {
   session.addSink(outputs);
   SeenDepth seen;
   session.addSink(seen);
-  if (o.track.view.on) session.addSink(view.emplace(o.track.view, o.recording, o.turn_deg, session.frameCount()));
+  if (o.track.view.on) session.addSink(view.emplace(o.track.view, o.recording, correction, session.frameCount()));
   {
     Progress progress("tracking", session.frameCount());
     session.run({[&](std::size_t done, std::size_t) { progress.update(done); },
@@ -95,7 +95,7 @@ void addReplayCommand(CLI::App& app) {
       ->required();
   addTrackOptions(*command, options->track);
   addLookAheadOption(*command, options->session.look_ahead_s);
-  addTurnOption(*command, options->turn_deg);
+  addCorrectionOptions(*command, options->correction);
   command->add_option("--first", options->session.first_frame, "First frame number to track");
   command->add_option("--last", options->session.last_frame, "Last frame number to track");
   command->footer(

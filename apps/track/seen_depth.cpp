@@ -54,8 +54,8 @@ std::string SeenDepth::explanation() const {
   const double high = percentile(0.95);
   const std::string seen =
       fmt::format("depth from {:.3g} to {:.3g} m, {:.0f} % of the pixels measured", low, high, 100 * share);
-  if (high < kNoUnit_m) return seen + ": the unit of depth is too small (depth_unit_m of the recording)";
-  if (low > kNoRoom_m) return seen + ": the unit of depth is too large (depth_unit_m of the recording)";
+  if (high < kNoUnit_m) return seen + ": the unit of depth is too small (--depth-unit MM, millimetres a step)";
+  if (low > kNoRoom_m) return seen + ": the unit of depth is too large (--depth-unit MM, millimetres a step)";
   if (high < kTooNear_m) return seen + ": too near, stand back until head and shoulders are in view";
   return seen +
          ": nobody with the head in view; if the camera hangs on its side or upside down, turn the pictures (--turn)";

@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/terminal/turn_option.h"
-#include "libtracker/recording/recording_header.h"
 #include "libtracker/sensor/driver_table.h"
 
 namespace depthmocap {
@@ -35,13 +33,7 @@ void addSourceOptions(CLI::App& command, SourceChoice& c) {
   command.add_option("--mode", c.mode, "Picture size and rate to ask the camera for, like 640x480@30")
       ->type_name("WxH[@FPS]")
       ->check([](const std::string& text) { return parseDepthMode(text) ? "" : "must be like 640x480@30 or 640x480"; });
-  command
-      .add_option("--camera", c.camera_file,
-                  "Intrinsics, distortion and depth unit of the camera, as in a recording.json (default: what the "
-                  "camera says, or those usual for its picture size)")
-      ->type_name("C.json")
-      ->check(CLI::ExistingFile);
-  addTurnOption(command, c.of_driver.turn_deg);
+  addCorrectionOptions(command, c.correction);
   for (const CameraDriver& driver : cameraDrivers().drivers()) {
     for (const DriverOption& option : driver.options) addDriverOption(command, option, c.of_driver);
   }
@@ -50,7 +42,10 @@ void addSourceOptions(CLI::App& command, SourceChoice& c) {
 std::unique_ptr<DepthSource> openChosenSource(const SourceChoice& choice) {
   SourceOptions options = choice.of_driver;
   if (!choice.mode.empty()) options.mode = parseDepthMode(choice.mode);
-  if (!choice.camera_file.empty()) options.camera = readRecordingHeader(choice.camera_file);
+  const RecordingCorrection correction = choice.correction.read();
+  options.camera = correction.camera;
+  options.depth_unit_m = correction.depth_unit_m;
+  options.turn_deg = correction.turn_deg;
   return openSource(choice.source, options);
 }
 

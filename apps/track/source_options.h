@@ -1,7 +1,7 @@
 #pragma once
-#include <filesystem>
 #include <string>
 
+#include "apps/terminal/correction_options.h"
 #include "libtracker/sensor/open_source.h"
 
 namespace CLI {
@@ -14,7 +14,7 @@ namespace depthmocap {
 struct SourceChoice {
   std::string source;
   std::string mode;
-  std::filesystem::path camera_file;
+  CorrectionChoice correction;
   SourceOptions of_driver;  // what the drivers' own options have set
   double seconds = 0;       // 0 = until the source ends or Ctrl-C
 };

@@ -16,7 +16,6 @@
 #include "depthmocap/error.h"
 #include "libtracker/core/background.h"
 #include "libtracker/recording/recording.h"
-#include "libtracker/recording/turned_recording.h"
 
 namespace depthmocap {
 namespace {
@@ -36,8 +35,9 @@ struct Entry {
 }  // namespace
 
 struct ReplayView::Impl {
-  Impl(const ViewOptions& options, const std::filesystem::path& recording, int turn_deg, std::size_t total_frames)
-      : reader(turnedRecording(openRecording(recording), turn_deg)),
+  Impl(const ViewOptions& options, const std::filesystem::path& recording, const RecordingCorrection& correction,
+       std::size_t total_frames)
+      : reader(openRecording(recording, correction)),
         encoder(reader->info().camera),
         total(total_frames),
         page(webServerConfig(options), pageFolder(),
@@ -169,9 +169,9 @@ void ReplayView::Impl::play() {
   }
 }
 
-ReplayView::ReplayView(const ViewOptions& options, const std::filesystem::path& recording, int turn_deg,
-                       std::size_t total)
-    : impl_(std::make_unique<Impl>(options, recording, turn_deg, total)) {
+ReplayView::ReplayView(const ViewOptions& options, const std::filesystem::path& recording,
+                       const RecordingCorrection& correction, std::size_t total)
+    : impl_(std::make_unique<Impl>(options, recording, correction, total)) {
   impl_->page.start();
   impl_->player = std::thread([this] { impl_->play(); });
   std::cerr << "view: " << impl_->page.server().url() << std::endl;

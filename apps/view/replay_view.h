@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/view/view_options.h"
+#include "libtracker/recording/recording.h"
 #include "libtracker/session/frame_sink.h"
 
 namespace depthmocap {
@@ -11,8 +12,9 @@ namespace depthmocap {
 // place that a page asks for, while the tracker works on. The tracker only adds; all else is done on other threads.
 class ReplayView : public FrameSink {
  public:
-  // Starts the server. `turn_deg`: as turnedRecording(); `total`: frames that there will be.
-  ReplayView(const ViewOptions& options, const std::filesystem::path& recording, int turn_deg, std::size_t total);
+  // Starts the server. `correction`: as openRecording(); `total`: frames that there will be.
+  ReplayView(const ViewOptions& options, const std::filesystem::path& recording, const RecordingCorrection& correction,
+             std::size_t total);
   ~ReplayView() override;
   ReplayView(const ReplayView&) = delete;
   ReplayView& operator=(const ReplayView&) = delete;

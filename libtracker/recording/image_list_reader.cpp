@@ -35,6 +35,17 @@ std::vector<IndexEntry> readIndex(const fs::path& folder) {
 
 ImageListReader::ImageListReader(RecordingInfo info, std::vector<IndexEntry> index)
     : info_(std::move(info)), index_(std::move(index)) {
+  takeDistortionOut();
+}
+
+void ImageListReader::believe(const CameraModel& camera, double depth_unit_m) {
+  info_.camera = camera;
+  info_.depth_unit_m = depth_unit_m;
+  takeDistortionOut();
+}
+
+void ImageListReader::takeDistortionOut() {
+  undistortion_.clear();
   if (info_.camera.hasDistortion()) undistortion_ = undistortionMap(info_.camera);
 }
 

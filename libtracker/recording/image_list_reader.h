@@ -24,8 +24,11 @@ class ImageListReader : public RecordingReader {
   void read(std::size_t i, DepthFrame& frame) override;
   [[nodiscard]] std::int64_t frameNumber(std::size_t i) const override { return index_[i].frame; }
   [[nodiscard]] double time(std::size_t i) const override { return index_[i].time_s; }
+  void believe(const CameraModel& camera, double depth_unit_m) override;
 
  private:
+  void takeDistortionOut();
+
   RecordingInfo info_;
   std::vector<IndexEntry> index_;
   std::vector<std::int32_t> undistortion_;  // empty: the camera has none

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -68,6 +69,12 @@ class OniReader : public RecordingReader {
   [[nodiscard]] std::int64_t frameNumber(std::size_t i) const override { return depth_.pictures[i].frame; }
   [[nodiscard]] double time(std::size_t i) const override { return depth_.pictures[i].time_s; }
   void read(std::size_t i, DepthFrame& frame) override;
+  void believe(const CameraModel& camera, double depth_unit_m) override {
+    info_.camera = camera;
+    info_.depth_unit_m = depth_unit_m;
+    undistortion_.clear();
+    if (camera.hasDistortion()) undistortion_ = undistortionMap(camera);
+  }
 
  private:
   std::string where_;
@@ -75,6 +82,7 @@ class OniReader : public RecordingReader {
   RecordingInfo info_;
   std::ifstream stream_;
   std::string packed_;
+  std::vector<std::int32_t> undistortion_;  // empty: none is known
   Image<std::uint16_t> raw_;
 };
 
@@ -97,7 +105,7 @@ void OniReader::read(std::size_t i, DepthFrame& frame) {
   }
   frame.frame = picture.frame;
   frame.time_s = picture.time_s;
-  toMetres(raw_, info_.depth_unit_m, {}, frame.depth);
+  toMetres(raw_, info_.depth_unit_m, undistortion_, frame.depth);
 }
 
 }  // namespace

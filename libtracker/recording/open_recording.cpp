@@ -1,13 +1,20 @@
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "depthmocap/error.h"
 #include "libtracker/recording/image_list_reader.h"
 #include "libtracker/recording/oni_reader.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/recording/turned_recording.h"
 
 namespace depthmocap {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<RecordingReader> openRecording(const fs::path& path) {
+namespace {
+
+std::unique_ptr<RecordingReader> openAsItIs(const fs::path& path) {
   if (!fs::exists(path)) throw Error("there is no such recording", path.string());
   if (!fs::is_directory(path)) {
     if (path.extension() == ".oni") return openOniRecording(path);
@@ -16,6 +23,27 @@ std::unique_ptr<RecordingReader> openRecording(const fs::path& path) {
   if (fs::exists(path / "recording.json")) return openRecordingFolder(path);
   if (fs::exists(path / "depth.txt")) return openTumFolder(path);
   throw Error("is no recording: it holds neither recording.json nor depth.txt", path.string());
+}
+
+CameraModel correctedCamera(const CameraModel& own, const std::optional<RecordingInfo>& given) {
+  if (!given) return own;
+  const CameraModel& camera = given->camera;
+  if (camera.width == own.width && camera.height == own.height) return camera;
+  throw Error(fmt::format("describes pictures of {}x{}, the recording's are {}x{}", camera.width, camera.height,
+                          own.width, own.height),
+              "--camera");
+}
+
+}  // namespace
+
+std::unique_ptr<RecordingReader> openRecording(const fs::path& path, const RecordingCorrection& correction) {
+  std::unique_ptr<RecordingReader> reader = openAsItIs(path);
+  if (correction.camera || correction.depth_unit_m) {
+    const double own_unit_m = correction.camera ? correction.camera->depth_unit_m : reader->info().depth_unit_m;
+    reader->believe(correctedCamera(reader->info().camera, correction.camera),
+                    correction.depth_unit_m.value_or(own_unit_m));
+  }
+  return turnedRecording(std::move(reader), correction.turn_deg);
 }
 
 }  // namespace depthmocap

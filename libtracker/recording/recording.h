@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "depthmocap/camera_model.h"
@@ -33,11 +34,23 @@ class RecordingReader {
   // Number and time of frame i without reading its picture.
   [[nodiscard]] virtual std::int64_t frameNumber(std::size_t i) const = 0;
   [[nodiscard]] virtual double time(std::size_t i) const = 0;  // [s]
+  // Reads on as if the recording said this of its camera: intrinsics and distortion, for pictures of the size that they
+  // have, and the depth step.
+  virtual void believe(const CameraModel& camera, double depth_unit_m) = 0;
+};
+
+// What somebody knows better than a recording.
+struct RecordingCorrection {
+  std::optional<RecordingInfo> camera;  // intrinsics, distortion and depth step; none: the recording's own
+  std::optional<double> depth_unit_m;   // [m] (> 0) a stored step, also before the camera's; none: that
+  int turn_deg = 0;                     // (0, 90, 180, 270) clockwise, that makes the pictures upright
 };
 
 // Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN,
-// zero or negative, no frame at all, times out of order). Pictures are opened one by one, in read().
-std::unique_ptr<RecordingReader> openRecording(const std::filesystem::path& path);
+// zero or negative, no frame at all, times out of order; a correction whose camera takes pictures of another size).
+// Pictures are opened one by one, in read().
+std::unique_ptr<RecordingReader> openRecording(const std::filesystem::path& path,
+                                               const RecordingCorrection& correction = {});
 
 // Writes a recording folder; refuses to overwrite one. Each PNG is written whole or not at all; frames.csv grows with
 // each frame, so that a recording cut short is readable up to its last frame. Frames are undistorted, so the camera's

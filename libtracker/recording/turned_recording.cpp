@@ -8,6 +8,7 @@ namespace depthmocap {
 namespace {
 
 constexpr int kQuarter_deg = 90;
+constexpr int kFullTurn_deg = 360;
 
 // A ray (x, y) becomes (-y, x). In the lens model p1 belongs to y and p2 to x, so they become (p2, -p1).
 CameraModel quarterTurned(const CameraModel& camera) {
@@ -33,6 +34,11 @@ class TurnedReader : public RecordingReader {
   [[nodiscard]] std::size_t frameCount() const override { return recording_->frameCount(); }
   [[nodiscard]] std::int64_t frameNumber(std::size_t i) const override { return recording_->frameNumber(i); }
   [[nodiscard]] double time(std::size_t i) const override { return recording_->time(i); }
+  void believe(const CameraModel& camera, double depth_unit_m) override {
+    recording_->believe(turnedCamera(camera, (kFullTurn_deg - turn_deg_) % kFullTurn_deg), depth_unit_m);
+    info_.camera = camera;
+    info_.depth_unit_m = depth_unit_m;
+  }
   void read(std::size_t i, DepthFrame& frame) override {
     recording_->read(i, taken_);
     frame.frame = taken_.frame;

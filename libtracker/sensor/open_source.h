@@ -14,7 +14,7 @@ struct SourceOptions {
   std::optional<DepthMode> mode;        // none: 640x480 at 30 per second, or what comes nearest
   std::optional<RecordingInfo> camera;  // intrinsics, distortion and depth unit; none: what the camera says itself
   std::string pixel_format;             // V4L2 fourcc; empty: the best one that the camera offers
-  std::optional<double> depth_unit_m;   // [m] a depth step; none: by the pixel format
+  std::optional<double> depth_unit_m;   // [m] a depth step; none: by the pixel format, or as recorded
   int turn_deg = 0;  // (0, 90, 180, 270) clockwise, that makes the pictures of a camera on its side upright
 };
 

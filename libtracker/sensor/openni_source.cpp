@@ -68,7 +68,7 @@ std::unique_ptr<OpenNiStream> openStream(const std::string& wanted, const Source
 class OpenNiSource : public DepthSource {
  public:
   OpenNiSource(std::unique_ptr<OpenNiStream> stream, const SourceOptions& options)
-      : stream_(std::move(stream)), unit_m_(stream_->depthUnit_m()) {
+      : stream_(std::move(stream)), unit_m_(options.depth_unit_m.value_or(stream_->depthUnit_m())) {
     info_.camera = stream_->camera();
     info_.fps = stream_->fps();
     info_.depth_unit_m = unit_m_;

@@ -23,7 +23,8 @@ std::string checkAddress(std::optional<std::string_view> address) {
 }
 
 std::unique_ptr<DepthSource> open(const std::string& recording, const SourceOptions& options) {
-  return std::make_unique<ReplaySource>(openRecording(recording), options.speed);
+  return std::make_unique<ReplaySource>(openRecording(recording, {options.camera, options.depth_unit_m, 0}),
+                                        options.speed);
 }
 
 std::string setSpeed(const std::string& text, SourceOptions& options) {

@@ -20,9 +20,6 @@ namespace depthmocap {
 namespace {
 
 constexpr int kDevices = 64;
-// [mm] per depth step that a user may ask for: finer than any sensor, coarser than any use.
-constexpr double kFinestUnit_mm = 0.001;
-constexpr double kCoarsestUnit_mm = 100;
 
 // Names of the formats that may hold depth; "" if there are none.
 std::string depthFormats(V4l2System& system, int device) {
@@ -47,15 +44,6 @@ std::string setPixelFormat(const std::string& text, SourceOptions& options) {
     return "";
   }
   return "'" + text + "' is none of " + fourccNames(depthFourccs());
-}
-
-std::string setDepthUnit(const std::string& text, SourceOptions& options) {
-  const std::optional<double> unit_mm = parseDouble(text);
-  if (!unit_mm || *unit_mm < kFinestUnit_mm || *unit_mm > kCoarsestUnit_mm) {
-    return fmt::format("'{}' is no number from {} to {}", text, kFinestUnit_mm, kCoarsestUnit_mm);
-  }
-  options.depth_unit_m = *unit_mm / 1000.0;
-  return "";
 }
 
 }  // namespace
@@ -83,9 +71,7 @@ CameraDriver v4l2Driver() {
           .names = {"v4l2:/dev/videoN"},
           .remark = "",
           .options = {{"--pixel-format", "FOURCC", "V4L2: the fourcc to use, one of " + fourccNames(depthFourccs()), "",
-                       setPixelFormat},
-                      {"--depth-unit", "MM", "V4L2: millimetres a depth step (default: by the pixel format)", "",
-                       setDepthUnit}},
+                       setPixelFormat}},
           .check = checkAddress,
           .open = open,
           .list = [] { return listV4l2Cameras(); }};

@@ -123,9 +123,7 @@ std::pair<std::string, SourceOptions> withOption(std::string_view flag, const st
 TEST(DriverTable, SetsDriversOptions) {
   EXPECT_EQ(withOption("--pixel-format", "Y10B").second.pixel_format, "Y10B");
   EXPECT_EQ(withOption("--pixel-format", "YUYV").first, "'YUYV' is none of Z16, INZI, Y10B, Y16");
-  EXPECT_EQ(withOption("--depth-unit", "0.125").second.depth_unit_m, 0.125 / 1000.0);
   EXPECT_EQ(withOption("--speed", "0").second.speed, 0);
-  for (const char* text : {"", "x", "-1", "0", "101", "nan"}) EXPECT_NE(withOption("--depth-unit", text).first, "");
   for (const char* text : {"", "x", "-1", "1001", "inf"}) EXPECT_NE(withOption("--speed", text).first, "");
 }
 

@@ -57,6 +57,10 @@ class MadeReader : public RecordingReader {
   }
   [[nodiscard]] std::int64_t frameNumber(std::size_t i) const override { return static_cast<std::int64_t>(i); }
   [[nodiscard]] double time(std::size_t i) const override { return static_cast<double>(i) / info_.fps; }
+  void believe(const CameraModel& camera, double depth_unit_m) override {
+    info_.camera = camera;
+    info_.depth_unit_m = depth_unit_m;
+  }
 
  private:
   RecordingInfo info_ = smallCamera();
