@@ -16,6 +16,7 @@
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
+#include "apps/track/turn_trial.h"
 #include "apps/view/live_view.h"
 #include "depthmocap/error.h"
 #include "libtracker/session/live_session.h"
@@ -56,14 +57,15 @@ class TerminalSink : public FrameSink {
   CameraWatch watch_;
 };
 
-std::string summaryText(const LiveFigures& f, const RunStats& stats, const SeenDepth& seen) {
+std::string summaryText(const LiveFigures& f, const RunStats& stats, const SeenDepth& seen,
+                        const TurnSearch& turn_that_helps) {
   std::string text = fmt::format("tracked {} of {} frames; skipped {} for newer ones, {} did not arrive",
                                  stats.tracked(), f.received, f.replaced, f.missing);
   if (f.damaged > 0) text += fmt::format(", {} were damaged", f.damaged);
   if (f.returns > 0) text += fmt::format("; the camera came back {} times", f.returns);
   if (f.recorded + f.not_recorded > 0)
     text += fmt::format("; recorded {}, not recorded {}", f.recorded, f.not_recorded);
-  if (stats.tracked() == 0 && stats.frames() > 0) text += "; " + seen.explanation();
+  if (stats.tracked() == 0 && stats.frames() > 0) text += "; " + seen.explanation(turn_that_helps);
   return text;
 }
 
@@ -84,6 +86,7 @@ struct LiveRun {
     }
     session->addSink(terminal);
     session->addSink(seen);
+    session->addSink(trial);
   }
   std::unique_ptr<DepthSource> source;
   Models models;
@@ -93,6 +96,7 @@ struct LiveRun {
   std::optional<LiveView> view;
   TerminalSink terminal;
   SeenDepth seen;
+  TurnTrial trial;
   std::optional<LiveSession> session;
 };
 
@@ -111,7 +115,11 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
     figures.recorded = run.recorder->status().written;
     figures.not_recorded = run.recorder->status().dropped;
   }
-  std::cerr << summaryText(figures, run.session->stats(), run.seen) << '\n';
+  const auto turn = [&] {
+    return run.trial.turnThatHelps(run.models, run.source->info().camera, trackerConfig(options.track),
+                                   options.source.correction.turn_deg);
+  };
+  std::cerr << summaryText(figures, run.session->stats(), run.seen, turn) << '\n';
   if (figures.received == 0) attempt([&] { throw Error("not one frame came", options.source.source); });
   if (figures.received > 0) attempt([&] { run.outputs.finish(); });
   run.session->stats().setLive(figures);

@@ -13,6 +13,7 @@
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
+#include "apps/track/turn_trial.h"
 #include "apps/view/replay_view.h"
 #include "depthmocap/error.h"
 #include "depthmocap/tracker.h"
@@ -59,7 +60,10 @@ void replay(const ReplayOptions& o) {
   const StopRequest on_ctrl_c;
   const RecordingCorrection correction = o.correction.read();
   const std::unique_ptr<RecordingReader> reader = openRecording(o.recording, correction);
-  Tracker tracker(loadModels(o.track), reader->info().camera, trackerConfig(o.track), actorOf(o.track));
+  const Models models = loadModels(o.track);
+  const TrackerConfig config = trackerConfig(o.track);
+  const CameraModel& camera = reader->info().camera;
+  Tracker tracker(models, camera, config, actorOf(o.track));
   ReplaySessionOptions options = o.session;
   options.smooth = o.track.smooth;
   options.name = o.recording.string();
@@ -71,6 +75,8 @@ void replay(const ReplayOptions& o) {
   session.addSink(outputs);
   SeenDepth seen;
   session.addSink(seen);
+  TurnTrial trial;
+  session.addSink(trial);
   if (o.track.view.on) session.addSink(view.emplace(o.track.view, o.recording, correction, session.frameCount()));
   {
     Progress progress("tracking", session.frameCount());
@@ -81,7 +87,8 @@ void replay(const ReplayOptions& o) {
   outputs.finish();
   const RunStats& stats = session.stats();
   if (!o.track.stats.empty()) stats.write(o.track.stats, millisecondsSince(start) / 1000.0, o.track.actor.empty());
-  std::cerr << trackedText(stats.tracked(), stats.frames(), seen) << '\n';
+  const auto turn = [&] { return trial.turnThatHelps(models, camera, config, correction.turn_deg); };
+  std::cerr << trackedText(stats.tracked(), stats.frames(), seen, turn) << '\n';
   if (view) stayForView(*view);
 }
 

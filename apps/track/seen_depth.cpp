@@ -15,6 +15,7 @@ constexpr double kTooNear_m = 0.5;    // [m] the tracker needs head and shoulder
 constexpr double kNoUnit_m = 0.1;     // [m] nothing that a camera measures is so near: the unit is too small
 constexpr double kNoRoom_m = 12.0;    // [m] nor so far: the unit is too large
 constexpr double kHardlyAny = 0.05;   // share of the frames that were tracked, from which on nothing needs saying
+constexpr double kMany = 0.5;         // share of the frames from which on a turned camera need not be thought of
 constexpr double kMostlyEmpty = 0.02;  // share of the pixels that are measured, below which nothing can be seen
 
 }  // namespace
@@ -43,7 +44,7 @@ double SeenDepth::percentile(double share) const {
   return 0;
 }
 
-std::string SeenDepth::explanation() const {
+std::string SeenDepth::explanation(const TurnSearch& turn_that_helps) const {
   if (pixels_ == 0) return {};
   const double share = static_cast<double>(measured_) / static_cast<double>(pixels_);
   if (share < kMostlyEmpty) {
@@ -57,14 +58,22 @@ std::string SeenDepth::explanation() const {
   if (high < kNoUnit_m) return seen + ": the unit of depth is too small (--depth-unit MM, millimetres a step)";
   if (low > kNoRoom_m) return seen + ": the unit of depth is too large (--depth-unit MM, millimetres a step)";
   if (high < kTooNear_m) return seen + ": too near, stand back until head and shoulders are in view";
-  return seen +
-         ": nobody with the head in view; if the camera hangs on its side or upside down, turn the pictures (--turn)";
+  if (const std::optional<int> turn_deg = turn_that_helps()) {
+    return fmt::format("{}: the pictures are turned, with --turn {} somebody is found", seen, *turn_deg);
+  }
+  return seen + ": nobody with the head in view, whichever way the pictures are turned";
 }
 
-std::string trackedText(std::size_t tracked, std::size_t frames, const SeenDepth& seen) {
+std::string trackedText(std::size_t tracked, std::size_t frames, const SeenDepth& seen,
+                        const TurnSearch& turn_that_helps) {
   std::string text = fmt::format("tracked {} of {} frames", tracked, frames);
-  if (static_cast<double>(tracked) >= kHardlyAny * static_cast<double>(frames)) return text;
-  const std::string why = seen.explanation();
+  const double share = static_cast<double>(tracked) / std::max(1.0, static_cast<double>(frames));
+  if (frames > 0 && share >= kMany) return text;
+  if (frames > 0 && share >= kHardlyAny) {
+    const std::optional<int> turn_deg = turn_that_helps();
+    return turn_deg ? fmt::format("{}; the pictures seem turned, with --turn {} more are", text, *turn_deg) : text;
+  }
+  const std::string why = seen.explanation(turn_that_helps);
   return why.empty() ? text : text + "; " + why;
 }
 

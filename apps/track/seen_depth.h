@@ -1,11 +1,16 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "libtracker/session/frame_sink.h"
 
 namespace depthmocap {
+
+// Degrees that --turn needs for somebody to be found, if there are such; takes a moment.
+using TurnSearch = std::function<std::optional<int>()>;
 
 // What a run saw, to say why nobody was tracked: the range of the depth, and how much of the pictures was measured.
 // Looks at a few hundred pixels of each frame.
@@ -13,7 +18,8 @@ class SeenDepth : public FrameSink {
  public:
   void onFrame(const SessionFrame& frame) override;
   // One sentence without a full stop: what was seen, the likely cause, what to do. Empty before the first frame.
-  [[nodiscard]] std::string explanation() const;
+  // `turn_that_helps`: asked where the depth itself is in order.
+  [[nodiscard]] std::string explanation(const TurnSearch& turn_that_helps) const;
 
  private:
   [[nodiscard]] double percentile(double share) const;  // [m]
@@ -25,6 +31,7 @@ class SeenDepth : public FrameSink {
 };
 
 // The last words of a run: how many of its frames were tracked and, where it was hardly any, why.
-std::string trackedText(std::size_t tracked, std::size_t frames, const SeenDepth& seen);
+std::string trackedText(std::size_t tracked, std::size_t frames, const SeenDepth& seen,
+                        const TurnSearch& turn_that_helps);
 
 }  // namespace depthmocap

@@ -10,6 +10,7 @@
 
 #include "depthmocap/parts.h"
 #include "libtracker/recording/png_file.h"
+#include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
 #include "tests/support/recording_excerpt.h"
 #include "tests/support/run_program.h"
@@ -159,6 +160,22 @@ TEST_F(ReplayCommand, ReadsOtherFilesThanThoseThatComeWithIt) {
     EXPECT_NE(damaged.errors.find((folder_ / "damaged").string()), std::string::npos) << damaged.errors;
     EXPECT_EQ(std::count(damaged.errors.begin(), damaged.errors.end(), '\n'), 1) << damaged.errors;
   }
+}
+
+// A camera on its side is not found out by itself, but the last line says how to turn it.
+TEST_F(ReplayCommand, SaysHowThePicturesAreTurned) {
+  const auto reader = openRecording(bundledRecording("walk"), {std::nullopt, std::nullopt, 270});
+  {
+    RecordingWriter writer(folder_ / "turned", reader->info());
+    DepthFrame frame;
+    for (std::size_t i = 0; i < reader->frameCount(); i += 10) {
+      reader->read(i, frame);
+      writer.write(frame);
+    }
+  }
+  const ProgramResult result = runProgram("replay " + at("turned") + " --joints " + at("j.csv"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.errors.find("--turn 90"), std::string::npos) << result.errors;
 }
 
 }  // namespace

@@ -5,7 +5,11 @@
 namespace depthmocap {
 namespace {
 
-std::string explanationOf(float depth_m, double measured_share = 1) {
+std::optional<int> noTurn() {
+  return std::nullopt;
+}
+
+std::string explanationOf(float depth_m, double measured_share = 1, const TurnSearch& turn = noTurn) {
   DepthFrame frame;
   frame.depth.reset(320, 240, depth_m);
   for (int y = 0; y < 240; ++y) {
@@ -17,13 +21,14 @@ std::string explanationOf(float depth_m, double measured_share = 1) {
   const TrackedFrame* nobody = &tracked;
   SeenDepth seen;
   seen.onFrame({0, frame, tracked, 30.0, {&nobody, 1}});
-  return seen.explanation();
+  return seen.explanation(turn);
 }
 
 TEST(SeenDepth, SaysWhatWasSeenAndTheLikelyCause) {
   EXPECT_NE(explanationOf(3.0F).find("depth from 3"), std::string::npos) << explanationOf(3.0F);
   EXPECT_NE(explanationOf(3.0F, 0.5).find("50 %"), std::string::npos) << explanationOf(3.0F, 0.5);
-  EXPECT_NE(explanationOf(3.0F).find("--turn"), std::string::npos);
+  EXPECT_NE(explanationOf(3.0F).find("nobody"), std::string::npos);
+  EXPECT_NE(explanationOf(3.0F, 1, [] { return 270; }).find("--turn 270"), std::string::npos);
   EXPECT_NE(explanationOf(0.003F).find("too small"), std::string::npos);
   EXPECT_NE(explanationOf(40.0F).find("too large"), std::string::npos);
   EXPECT_NE(explanationOf(0.3F).find("too near"), std::string::npos);
@@ -32,8 +37,11 @@ TEST(SeenDepth, SaysWhatWasSeenAndTheLikelyCause) {
 
 TEST(SeenDepth, IsOnlyNeededWhereHardlyAnythingWasTracked) {
   const SeenDepth nothing;
-  EXPECT_EQ(trackedText(0, 0, nothing), "tracked 0 of 0 frames");
-  EXPECT_EQ(trackedText(90, 100, nothing), "tracked 90 of 100 frames");
+  EXPECT_EQ(trackedText(0, 0, nothing, noTurn), "tracked 0 of 0 frames");
+  EXPECT_EQ(trackedText(90, 100, nothing, noTurn), "tracked 90 of 100 frames");
+  EXPECT_EQ(trackedText(90, 100, nothing, [] { return 90; }), "tracked 90 of 100 frames");
+  EXPECT_EQ(trackedText(30, 100, nothing, noTurn), "tracked 30 of 100 frames");
+  EXPECT_NE(trackedText(30, 100, nothing, [] { return 180; }).find("--turn 180"), std::string::npos);
 }
 
 }  // namespace
