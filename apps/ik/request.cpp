@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/json_file.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
@@ -18,10 +19,7 @@ using nlohmann::json;
 constexpr const char* kWhere = "request";
 
 json parsed(const std::string& body) {
-  json request = json::parse(body, nullptr, false);
-  if (!request.is_object()) {
-    throw Error("is no JSON object", kWhere, R"(for example {"targets": {"left_wrist": [0.5, 1.2, 0.3]}})");
-  }
+  json request = parseJson(body, kWhere);
   for (const auto& [key, value] : request.items()) {
     if (key != "targets" && key != "prior" && key != "solver") {
       throw Error(fmt::format("there is no key '{}'", key), kWhere, "keys are targets, prior, solver");

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -11,6 +9,7 @@
 #include "depthmocap/joints.h"
 #include "depthmocap/parts.h"
 #include "libtracker/body/builtin_body.h"
+#include "libtracker/core/json_file.h"
 #include "libtracker/output/gltf.h"
 #include "libtracker/recording/part_colors.h"
 
@@ -35,11 +34,7 @@ constexpr std::array<PageFile, 7> kFiles = {{{"/", "index.html", "text/html; cha
                                              {"/OrbitControls.js", "OrbitControls.js", kScript},
                                              {"/GLTFLoader.js", "GLTFLoader.js", kScript}}};
 
-std::string contentOf(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error("a file of the page cannot be read", path.string(), "build the target 'all'");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
+constexpr std::size_t kMostPageBytes = mebibytes(16);  // of a file; three.js has 1 MB
 
 std::string dumped(const json& message) {
   return message.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -51,7 +46,7 @@ LivePage::LivePage(const WebServerConfig& config, const std::filesystem::path& f
     : info_(std::move(info)), server_(config) {
   for (const PageFile& file : kFiles) {
     const bool open = std::string_view(file.path) != "/";
-    server_.serveFile(file.path, {file.type, contentOf(folder / file.name)}, open);
+    server_.serveFile(file.path, {file.type, readFile(folder / file.name, "a file of the page", kMostPageBytes)}, open);
   }
   server_.onGet("/health", [](const std::string&) { return WebContent{"application/json", R"({"status":"ok"})"}; });
   server_.onGet("/body.glb", [this](const std::string&) {
@@ -80,7 +75,7 @@ std::string LivePage::hello() const {
 std::string LivePage::received(const std::string& text) {
   try {
     const ViewCommand command = parseViewCommand(text);
-    const std::string name = json::parse(text)["type"];
+    const std::string name = parseJson(text, "message")["type"];
     if (std::find(info_.controls.begin(), info_.controls.end(), name) == info_.controls.end()) {
       throw Error("\"" + name + "\" does not work here", "message");
     }

@@ -41,8 +41,7 @@ ViewAction actionOf(const std::string& name) {
 }  // namespace
 
 ViewCommand parseViewCommand(const std::string& text) {
-  const json message = json::parse(text, nullptr, false);
-  if (!message.is_object()) throw Error("is no JSON object", kWhere);
+  const json message = parseJson(text, kWhere);
   ViewCommand command;
   command.action = actionOf(jsonString(message, "type", kWhere));
   constexpr double kLastFrame = 1e9;

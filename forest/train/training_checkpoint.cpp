@@ -1,13 +1,12 @@
 #include "forest/train/training_checkpoint.h"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <type_traits>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/core/read_file.h"
 
 // "DMCTRAIN", a hash of all that follows, the length of the identity, the identity, the number of trees, and each
 // tree's number of nodes and nodes as they are in memory: the file never leaves the machine.
@@ -15,6 +14,7 @@ namespace depthmocap {
 namespace {
 
 constexpr std::string_view kMagic = "DMCTRAIN";
+constexpr std::size_t kMostBytes = mebibytes(1024);  // ten times that of the forest that comes with the library
 
 using Node = TrainedTree::Node;
 static_assert(std::is_trivially_copyable_v<Node>);
@@ -73,8 +73,7 @@ void saveCheckpoint(const std::filesystem::path& path, const std::string& identi
 
 std::vector<TrainedTree> loadCheckpoint(const std::filesystem::path& path, const std::string& identity) {
   if (!std::filesystem::exists(path)) return {};
-  std::ifstream in(path, std::ios::binary);
-  const std::string file{std::istreambuf_iterator<char>(in), {}};
+  const std::string file = readFile(path, "the checkpoint", kMostBytes);
   Reader reader(file, path.string());
   if (reader.take(kMagic.size()) != kMagic) reader.fail("this is not a checkpoint");
   if (reader.number() != hashOf(reader.left())) reader.fail("the checkpoint is damaged or truncated");
@@ -82,11 +81,15 @@ std::vector<TrainedTree> loadCheckpoint(const std::filesystem::path& path, const
   if (found != identity) {
     reader.fail("the checkpoint belongs to another training: \"" + std::string(found) + "\", not \"" + identity + "\"");
   }
-  std::vector<TrainedTree> trees(reader.number());
+  const std::uint64_t count = reader.number();
+  if (count > reader.left().size()) reader.fail("the checkpoint is damaged");
+  std::vector<TrainedTree> trees(count);
   for (TrainedTree& tree : trees) {
-    tree.nodes.resize(reader.number());
-    if (tree.nodes.empty()) continue;
-    const std::string_view nodes = reader.take(tree.nodes.size() * sizeof(Node));
+    const std::uint64_t node_count = reader.number();
+    if (node_count > reader.left().size() / sizeof(Node)) reader.fail("the checkpoint is truncated");
+    const std::string_view nodes = reader.take(node_count * sizeof(Node));
+    if (nodes.empty()) continue;
+    tree.nodes.resize(node_count);
     std::memcpy(static_cast<void*>(tree.nodes.data()), nodes.data(), nodes.size());
   }
   return trees;

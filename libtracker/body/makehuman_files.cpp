@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <zlib.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/json_file.h"
 
 namespace depthmocap {
 namespace {
 
 constexpr float kMetresPerDecimetre = 0.1F;
+constexpr float kFarthest_m = 100;                     // a coordinate beyond is no body's
+constexpr std::size_t kMostVertices = 1U << 17U;       // base.obj has 19,158
+constexpr std::size_t kMostTriangles = 1U << 18U;      // likewise, 27,000 of the body
+constexpr std::size_t kMostTextBytes = mebibytes(32);  // base.obj, the largest file, has 3 MB
 constexpr const char* kAdvice = "give the folder with MakeHuman's base.obj, rig, weights and targets";
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
@@ -58,15 +62,7 @@ bool parsePoint(Words& words, Eigen::Vector3f& p) {
     if (!parse(words.next(), p[i])) return false;
   }
   p *= kMetresPerDecimetre;
-  return true;
-}
-
-std::string readText(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, "cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest_m;
 }
 
 std::string readGzip(const std::filesystem::path& file) {
@@ -77,17 +73,10 @@ std::string readGzip(const std::filesystem::path& file) {
   int got = 0;
   while ((got = gzread(in.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0) {
     text.append(buffer.data(), static_cast<std::size_t>(got));
+    if (text.size() > kMostTextBytes) fail(file, "unpacks to more than any target");
   }
   if (got < 0) fail(file, "is not a complete gzip file");
   return text;
-}
-
-nlohmann::json readJson(const std::filesystem::path& file) {
-  try {
-    return nlohmann::json::parse(readText(file));
-  } catch (const nlohmann::json::exception& e) {
-    fail(file, fmt::format("is not valid JSON: {}", e.what()));
-  }
 }
 
 // Corners of an obj face, counted from 0; an empty result for a broken line.
@@ -151,7 +140,7 @@ constexpr Share kShares[] = {
 }  // namespace
 
 MakeHumanMesh readMakeHumanMesh(const std::filesystem::path& file) {
-  const std::string text = readText(file);
+  const std::string text = readFile(file, "the mesh", kMostTextBytes);
   MakeHumanMesh mesh;
   std::string group;
   Words words(text);
@@ -160,6 +149,7 @@ MakeHumanMesh readMakeHumanMesh(const std::filesystem::path& file) {
     if (kind == "v") {
       Eigen::Vector3f p;
       if (!parsePoint(words, p)) fail(file, "has a broken vertex line");
+      if (mesh.vertices.size() == kMostVertices) fail(file, "has more vertices than any body");
       mesh.vertices.push_back(p);
     } else if (kind == "g") {
       group = words.next();
@@ -167,6 +157,7 @@ MakeHumanMesh readMakeHumanMesh(const std::filesystem::path& file) {
       const std::vector<std::uint32_t> corners = parseFace(words, mesh.vertices.size());
       if (corners.size() < 3) fail(file, "has a broken face line");
       if (group == "body") {
+        if (mesh.triangles.size() + corners.size() > kMostTriangles) fail(file, "has more faces than any body");
         for (std::size_t i = 2; i < corners.size(); ++i)
           mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
         mesh.body_vertices =
@@ -193,6 +184,7 @@ MakeHumanTarget readMakeHumanTarget(const std::filesystem::path& file, std::size
     std::uint32_t vertex = 0;
     Eigen::Vector3f delta;
     if (!parse(first, vertex) || vertex >= vertex_count || !parsePoint(words, delta)) fail(file, "has a broken line");
+    if (target.vertex.size() == vertex_count) fail(file, "has more lines than the body has vertices");
     target.vertex.push_back(vertex);
     target.delta.push_back(delta);
   }
@@ -200,7 +192,7 @@ MakeHumanTarget readMakeHumanTarget(const std::filesystem::path& file, std::size
 }
 
 MakeHumanJoints readMakeHumanRig(const std::filesystem::path& file, const MakeHumanMesh& mesh) {
-  const nlohmann::json rig = readJson(file);
+  const nlohmann::json rig = readJsonFile(file);
   MakeHumanJoints joints;
   try {
     for (const auto& [bone, value] : rig.items()) {
@@ -217,7 +209,7 @@ MakeHumanJoints readMakeHumanRig(const std::filesystem::path& file, const MakeHu
 }
 
 std::vector<BoneWeights> readMakeHumanWeights(const std::filesystem::path& file, std::size_t body_vertices) {
-  const nlohmann::json json = readJson(file);
+  const nlohmann::json json = readJsonFile(file);
   std::vector<BoneWeights> weights(body_vertices, BoneWeights{});
   try {
     for (const Share& share : kShares) {
@@ -234,7 +226,7 @@ std::vector<BoneWeights> readMakeHumanWeights(const std::filesystem::path& file,
   for (BoneWeights& row : weights) {
     float sum = 0;
     for (const float w : row) sum += w;
-    if (!(sum > 0)) fail(file, "leaves a vertex of the body without weight");
+    if (!(sum > 0 && std::isfinite(sum))) fail(file, "leaves a vertex of the body without weight");
     for (float& w : row) w /= sum;
   }
   return weights;

@@ -3,37 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/json_file.h"
 #include "libtracker/core/nearest_name.h"
 
 namespace depthmocap {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr int kMaxDepth = 64;  // of values in values; by hand, far above what anybody writes and below any stack
-
-// What the library lets pass, found while a file is read: nesting without limit, and two members with the same key.
-class DamageFinder {
- public:
-  explicit DamageFinder(std::string name) : name_(std::move(name)) {}
-
-  bool operator()(int depth, ordered_json::parse_event_t event, ordered_json& value) {
-    if (depth > kMaxDepth) throw Error("is nested too deeply", name_);
-    if (event == ordered_json::parse_event_t::object_start) keys_.emplace_back();
-    if (event == ordered_json::parse_event_t::object_end) keys_.pop_back();
-    if (event == ordered_json::parse_event_t::key && !keys_.back().insert(value.get<std::string>()).second) {
-      throw Error("\"" + value.get<std::string>() + "\" stands twice in one object", name_);
-    }
-    return true;
-  }
-
- private:
-  std::string name_;
-  std::vector<std::set<std::string>> keys_;
-};
 
 // Names that always mean the same: of numbers, of poses, of the groups of a posture, of a hand's place and of the gait.
 constexpr std::array<std::string_view, 18> kTaken = {
@@ -47,14 +25,7 @@ bool isNameCharacter(char c) {
 }  // namespace
 
 ordered_json MotionJson::parse(std::string_view text, const std::string& name) {
-  ordered_json json;
-  try {
-    json = ordered_json::parse(text, DamageFinder(name));
-  } catch (const ordered_json::exception& failure) {
-    throw Error(std::string("is not valid JSON: ") + failure.what(), name);
-  }
-  if (!json.is_object()) throw Error("must hold a JSON object", name);
-  return json;
+  return parseOrderedJson(text, name);
 }
 
 void MotionJson::fail(const std::string& what, const std::string& advice) const {

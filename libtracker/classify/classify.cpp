@@ -22,7 +22,7 @@ void checkArguments(const Forest& forest, const DepthImage& depth, const MaskIma
   DMC_CHECK(!forest.trees.empty() && forest.trees.size() <= kMaxTrees);
   DMC_CHECK(depth.width == mask.width && depth.height == mask.height);
   DMC_CHECK(depth.width <= INT16_MAX && depth.height <= INT16_MAX);
-  DMC_CHECK(focal_px >= 1 && focal_px <= 1e5);
+  DMC_CHECK(focal_px >= 0.1 && focal_px <= 1e5);
   DMC_CHECK(stride >= 1);
 }
 

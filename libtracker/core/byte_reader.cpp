@@ -1,22 +1,20 @@
 #include "libtracker/core/byte_reader.h"
 
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/read_file.h"
 
 namespace depthmocap {
+namespace {
+
+constexpr std::size_t kMostBytes = mebibytes(64);  // the largest of ours, learned poses, has 1 MB
+
+}  // namespace
 
 ByteReader::ByteReader(const std::filesystem::path& path, std::string what)
-    : what_(std::move(what)), where_(path.string()) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("cannot open " + what_, where_);
-  std::ostringstream content;
-  content << file.rdbuf();
-  bytes_ = std::move(content).str();
-}
+    : bytes_(readFile(path, what, kMostBytes)), what_(std::move(what)), where_(path.string()) {}
 
 void ByteReader::require(std::size_t size) const {
   if (bytes_.size() - at_ < size) throw Error(what_ + " is cut short", where_);

@@ -3,8 +3,11 @@
 #include <cerrno>
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include "depthmocap/error.h"
 #include "libtracker/core/parse_number.h"
+#include "libtracker/core/printable.h"
 
 namespace depthmocap {
 
@@ -13,11 +16,9 @@ namespace {
 constexpr std::size_t kLongestLine = std::size_t{64} << 10U;
 constexpr std::size_t kShownCharacters = 40;
 
-// A piece of a damaged file, short and printable, for a message of one line.
+// A piece of a damaged file, for a message.
 std::string shown(std::string_view text) {
-  std::string result;
-  for (const char c : text.substr(0, kShownCharacters)) result += c >= ' ' && c <= '~' ? c : '?';
-  return "'" + result + (text.size() > kShownCharacters ? "...'" : "'");
+  return fmt::format("'{}'", printable(text, kShownCharacters));
 }
 
 void split(std::string_view line, char separator, std::vector<std::string_view>& fields) {

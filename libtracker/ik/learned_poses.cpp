@@ -85,8 +85,10 @@ class In : public ByteReader {
     PoseGaussian g;
     g.weight = positive();
     g.mean = matrix(kShapeDofCount, 1);
-    g.basis = matrix();
-    check(g.basis.rows() == kShapeDofCount && g.basis.cols() < kShapeDofCount);
+    // Into a matrix of any shape first: one of another shape would be written past the fixed number of rows.
+    const Eigen::MatrixXd basis = matrix();
+    check(basis.rows() == kShapeDofCount && basis.cols() < kShapeDofCount);
+    g.basis = basis;
     g.deviation = matrix(g.basis.cols(), 1);
     check((g.deviation.array() > 0).all());
     g.residual_rad = positive();

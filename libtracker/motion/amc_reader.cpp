@@ -60,6 +60,7 @@ class AmcParser {
     if (number <= last_number_) text_.fail("frame numbers must grow");
     last_number_ = number;
     frames_.push_back(rest_);
+    text_.checkJointFrames(frames_.size() * skeleton_.bones.size());
     given_.assign(skeleton_.bones.size(), false);
     given_count_ = 0;
   }

@@ -164,6 +164,7 @@ class BvhParser {
       frame.rotation.push_back(rotation);
     }
     motion_.frames.push_back(std::move(frame));
+    text_.checkJointFrames(motion_.frames.size() * motion_.bones.size());
   }
 
   TextScanner text_;

@@ -4,25 +4,23 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/printable.h"
 
 namespace depthmocap {
 
-TextScanner::TextScanner(const std::filesystem::path& path, std::string_view extra_separators, char comment)
-    : path_(path.string()), separators_(extra_separators), comment_(comment) {
-  std::error_code failure;
-  const auto bytes = std::filesystem::file_size(path, failure);
-  if (failure) throw Error("cannot read the file: " + failure.message(), path_);
-  if (bytes > kMaxBytes) throw Error("the file is too large for a motion file", path_);
-  std::ifstream in(path, std::ios::binary);
-  text_.resize(static_cast<std::size_t>(bytes));
-  if (!in.read(text_.data(), static_cast<std::streamsize>(bytes))) throw Error("cannot read the file", path_);
+namespace {
+constexpr std::size_t kShownBytes = 40;  // of a damaged word, in a message
 }
+
+TextScanner::TextScanner(const std::filesystem::path& path, std::string_view extra_separators, char comment)
+    : path_(path.string()),
+      text_(readFile(path, "the motion file", kMaxBytes)),
+      separators_(extra_separators),
+      comment_(comment) {}
 
 bool TextScanner::isSeparator(char c) const {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\0' || separators_.find(c) != std::string::npos;
@@ -98,10 +96,17 @@ double TextScanner::number(std::string_view word, std::string_view expected) con
   const bool underflow = result.ec == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos;
   if (underflow && result.ptr == digits.data() + digits.size()) return 0.0;
   if (result.ec != std::errc{} || result.ptr != digits.data() + digits.size() || !std::isfinite(value)) {
-    fail(fmt::format("'{}' stands where {} should stand", word, expected));
+    fail(fmt::format("'{}' stands where {} should stand", printable(word, kShownBytes), expected));
   }
-  if (std::abs(value) > kMaxMagnitude) fail(fmt::format("the number {} is out of range", word));
+  if (std::abs(value) > kMaxMagnitude) fail(fmt::format("the number {} is out of range", printable(word, kShownBytes)));
   return value;
+}
+
+void TextScanner::checkJointFrames(std::size_t count) const {
+  constexpr std::size_t kBytesAJoint = 6;            // "0 0 0 ", three angles as short as they can be
+  constexpr std::size_t kStandingStill = 1'000'000;  // joints times frames of a motion with joints that never move
+  if (count <= kStandingStill + text_.size() / kBytesAJoint) return;
+  fail("the motion has far more frames of joints than values", "are most of the joints without channels?");
 }
 
 void TextScanner::fail(const std::string& what, const std::string& advice) const {

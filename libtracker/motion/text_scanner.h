@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "libtracker/core/read_file.h"
+
 namespace depthmocap {
 
 // A motion file as words with line numbers. Blanks, tabs and carriage returns separate words, and so do the extra
@@ -14,7 +16,7 @@ class TextScanner {
   // Reads the whole file; Error where that fails or the file is larger than kMaxBytes.
   TextScanner(const std::filesystem::path& path, std::string_view extra_separators, char comment);
 
-  static constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30U;
+  static constexpr std::size_t kMaxBytes = mebibytes(256);  // an hour of a BVH with 30 joints at 60 fps
 
   [[nodiscard]] bool atEnd();
   // The next word, without taking it; empty at the end of the file.
@@ -30,6 +32,9 @@ class TextScanner {
 
   // A word already taken as a number, with the same rules.
   [[nodiscard]] double number(std::string_view word, std::string_view expected) const;
+  // Fails where so many joints times frames are far more than a file of this size can spell, so that a short file does
+  // not take much memory: few joints of a motion stand still.
+  void checkJointFrames(std::size_t count) const;
   // Throws the Error for the line of the last word taken.
   [[noreturn]] void fail(const std::string& what, const std::string& advice = {}) const;
   // Line of the last word taken, from 1.

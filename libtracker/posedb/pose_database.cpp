@@ -11,15 +11,14 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string_view>
-#include <system_error>
 
 #include <zlib.h>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/read_file.h"
 
 namespace depthmocap {
 namespace {
@@ -29,6 +28,7 @@ static_assert(std::endian::native == std::endian::little, "the file is copied by
 constexpr std::string_view kMagic = "DMCPOSES";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 4 + 8 + 4 + 4 + 4;
+constexpr std::size_t kMostBytes = mebibytes(512);  // 3.7 million poses, ten times those of the CMU library
 constexpr std::size_t kPoseBytes = kDofCount * sizeof(float);
 
 // The poses lie in memory as they lie in the file.
@@ -67,19 +67,6 @@ class Reader {
   std::string_view bytes_;
   const std::string& path_;
 };
-
-std::string readWhole(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
-  std::error_code ignored;
-  if (size < 0 || std::filesystem::is_directory(path, ignored)) {
-    throw Error("the pose database cannot be read", path.string(), "does the file exist?");
-  }
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  in.seekg(0);
-  if (!in.read(bytes.data(), size)) throw Error("the pose database cannot be read", path.string());
-  return bytes;
-}
 
 struct Counts {
   std::uint64_t poses = 0;
@@ -125,7 +112,7 @@ PoseDatabase::Source readSource(Reader& reader, const Counts& counts, const std:
 
 PoseDatabase loadPoseDatabase(const std::filesystem::path& path) {
   const std::string name = path.string();
-  const std::string bytes = readWhole(path);
+  const std::string bytes = readFile(path, "the pose database", kMostBytes);
   Reader reader(bytes, name);
   const Counts counts = readHeader(reader, name);
   PoseDatabase database;

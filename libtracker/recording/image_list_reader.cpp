@@ -1,6 +1,9 @@
 #include "libtracker/recording/image_list_reader.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
@@ -14,6 +17,8 @@ namespace depthmocap {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kLatest_s = 1e11;  // after the year 5000, counted from 1970 as some recordings do
 
 std::vector<IndexEntry> readIndex(const fs::path& folder) {
   const fs::path file = folder / "frames.csv";
@@ -35,6 +40,10 @@ std::vector<IndexEntry> readIndex(const fs::path& folder) {
 
 ImageListReader::ImageListReader(RecordingInfo info, std::vector<IndexEntry> index)
     : info_(std::move(info)), index_(std::move(index)) {
+  for (const IndexEntry& entry : index_) {
+    if (std::abs(entry.time_s) <= kLatest_s) continue;
+    throw Error(fmt::format("the time {:g} s lies outside +-{:g} s", entry.time_s, kLatest_s), entry.file.string());
+  }
   takeDistortionOut();
 }
 

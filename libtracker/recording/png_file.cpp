@@ -20,7 +20,8 @@ namespace depthmocap {
 
 namespace {
 
-constexpr int kCompressionLevel = 1;  // of 9: a depth picture comes out hardly larger, several times as fast
+constexpr png_uint_32 kLargestSide = 16384;  // [px] as of a recording
+constexpr int kCompressionLevel = 1;         // of 9: a depth picture comes out hardly larger, several times as fast
 
 struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -61,6 +62,9 @@ struct Writer {
 // gave up.
 bool readHeader(Reader& reader, std::FILE* file) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_set_user_limits(reader.png, kLargestSide, kLargestSide);
+  // Texts, profiles and their like say nothing of depth, and libpng would make room for whatever size they announce.
+  png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_init_io(reader.png, file);
   png_read_info(reader.png, reader.info);
   return true;
@@ -139,7 +143,7 @@ void writePng(const std::filesystem::path& path, const Image<Value>& image) {
   auto rows = rowsOf(const_cast<Image<Value>&>(image));
   const int bits = 8 * static_cast<int>(sizeof(Value));
   if (!writeRows(writer, image.width, image.height, bits, rows.data())) throw Error(writer.failure, path.string());
-  writeFileAtomically(path, writer.bytes);
+  writeFileAtomically(path, writer.bytes, Sync::WithFolder);
 }
 
 }  // namespace

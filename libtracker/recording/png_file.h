@@ -11,6 +11,7 @@ namespace depthmocap {
 //
 // Reading throws Error if the file is missing, is no PNG, is cut short or damaged (every checksum is verified), has
 // colour, alpha or another depth than the function's name says, or is not width x height pixels. `image` is reused.
+// Written pictures reach the disk with their folder (syncFolder()).
 void readPng16(const std::filesystem::path& path, int width, int height, Image<std::uint16_t>& image);
 void readPng8(const std::filesystem::path& path, int width, int height, Image<std::uint8_t>& image);
 

@@ -28,7 +28,7 @@ TEST(ByteReader, SaysWhatIsWrongWithTheFile) {
   EXPECT_NE(error([](ByteReader& r) { r.count(2); }).find("the list is damaged"), std::string::npos);
   EXPECT_NE(error([](const ByteReader& r) { r.end(); }).find("the list is damaged"), std::string::npos);
   EXPECT_NE(error([](const ByteReader& r) { r.require(8); }).find("the list is cut short"), std::string::npos);
-  EXPECT_NE(errorOf([&] { ByteReader(folder / "none", "the list"); }).find("cannot open the list"), std::string::npos);
+  EXPECT_NE(errorOf([&] { ByteReader(folder / "none", "the list"); }).find("cannot read the list"), std::string::npos);
 }
 
 }  // namespace

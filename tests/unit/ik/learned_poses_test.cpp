@@ -48,5 +48,22 @@ TEST(LearnedPosesFile, RefusesDamage) {
   EXPECT_NE(errorOfBytes(weight).find("damaged"), std::string::npos);
 }
 
+TEST(LearnedPosesFile, RefusesABasisOfOtherRows) {
+  const TemporaryFolder folder;
+  LearnedPoses poses = someLearnedPoses();
+  saveLearnedPoses(poses, folder / "good.bin");
+  std::string bytes = readBytes(folder / "good.bin");
+  // After the head the weight (1 x 1) and the mean (32 x 1), then the basis: as many numbers in half as many rows.
+  const std::size_t basis = 8 + 4 + poses.origin.size() + (8 + 2) + (8 + 2 * kShapeDofCount);
+  const auto rows = static_cast<std::uint32_t>(kShapeDofCount / 2);
+  const auto cols = static_cast<std::uint32_t>(2 * poses.ppca.basis.cols());
+  bytes.replace(basis, 4, reinterpret_cast<const char*>(&rows), 4);
+  bytes.replace(basis + 4, 4, reinterpret_cast<const char*>(&cols), 4);
+  writeBytes(folder / "bad.bin", bytes);
+  EXPECT_NE(
+      errorOf([&] { loadLearnedPoses(folder / "bad.bin"); }).find("bad.bin: the file of learned poses is damaged"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace depthmocap

@@ -183,5 +183,14 @@ TEST_F(Bvh, WithoutFinishThereIsNoFile) {
   EXPECT_NE(errorOf([&] { BvhWriter(file("no/such/folder.bvh"), makeSkeleton(BoneLengths{}), 30.0); }), "");
 }
 
+// Joints without channels cost nothing in the file and as much as others in memory.
+TEST_F(Bvh, RefusesFarMoreJointsTimesFramesThanValues) {
+  std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+  for (int i = 0; i < 900; ++i) text += "JOINT j" + std::to_string(i) + "\n{\nOFFSET 0 0 0\nCHANNELS 0\n}\n";
+  text += "}\nMOTION\nFrames: 100000\nFrame Time: 0.03\n";
+  for (int i = 0; i < 100'000; ++i) text += "0\n";
+  EXPECT_NE(error(text).find("far more frames of joints than values"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace depthmocap

@@ -1,6 +1,7 @@
 #include "libtracker/recording/png_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/random.h"
@@ -59,6 +60,23 @@ TEST(PngFile, RefusesEveryFlippedBit) {
     // The bit that says whether a chunk is optional turns IEND into a chunk to skip; then the end is missing.
     EXPECT_THROW(readPng16(folder / "flipped.png", 9, 7, read), Error) << "byte " << at;
   }
+}
+
+// libpng would make room for what a chunk of text announces, here 2 GB, before it sees that the file ends.
+TEST(PngFile, TakesNoMemoryForAnAnnouncedText) {
+  const TemporaryFolder folder;
+  const auto image = randomImage<std::uint16_t>(9, 7);
+  writePng16(folder / "a.png", image);
+  const std::string whole = readBytes(folder / "a.png");
+  const std::size_t after_header = 8 + 25;
+  writeBytes(folder / "long.png", whole.substr(0, after_header) + "\x7f\xff\xff\xffzTXt" + std::string(100, 'x'));
+  rusage before{};
+  rusage after{};
+  getrusage(RUSAGE_SELF, &before);
+  Image<std::uint16_t> read;
+  EXPECT_THROW(readPng16(folder / "long.png", 9, 7, read), Error);
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000);  // [KiB]
 }
 
 }  // namespace
