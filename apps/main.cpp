@@ -1,12 +1,14 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
+#include <cmath>
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <string>
 
 #include "apps/commands.h"
 #include "depthmocap/error.h"
+#include "libtracker/core/parse_number.h"
+#include "libtracker/core/printable.h"
 
 namespace depthmocap {
 
@@ -39,10 +41,23 @@ void addCommands(CLI::App& app) {
 #endif
 }
 
-int failure(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::cerr << "depthmocap: " << message << std::endl;
+int failure(const std::string& message) {
+  constexpr std::size_t kMostBytes = 4000;  // a path has at most 4096, an error of ours two or three hundred more
+  std::cerr << "depthmocap: " << printable(message, kMostBytes) << std::endl;
   return kFailed;
+}
+
+// CLI11's ranges let NaN pass, and some options have no upper limit. Goes through all commands.
+void allowOnlyFiniteNumbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (!option->get_type_name().starts_with("FLOAT")) continue;
+    option->check([](const std::string& text) {
+      const auto number = parseDouble(text);
+      constexpr double kLargest = 1e9;  // far above any option's sense, far below where sums lose it
+      return number && std::abs(*number) <= kLargest ? "" : "must be a number between -1e9 and 1e9";
+    });
+  }
+  for (CLI::App* command : app.get_subcommands(nullptr)) allowOnlyFiniteNumbers(*command);
 }
 
 // CLI11 says only "A subcommand is required" to a misspelt command.
@@ -56,6 +71,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("depthmocap <command> --help explains a command.");
   addCommands(app);
+  allowOnlyFiniteNumbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& asked) {
@@ -75,6 +91,9 @@ int run(int argc, char** argv) {
 }  // namespace depthmocap
 
 int main(int argc, char** argv) {
+  // A reader that is gone and a file that may not grow are errors of writing, which are reported.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return depthmocap::run(argc, argv);
   } catch (const std::bad_alloc&) {

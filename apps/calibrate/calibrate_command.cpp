@@ -13,6 +13,7 @@
 #include "apps/calibrate/calibration_picture.h"
 #include "apps/commands.h"
 #include "apps/terminal/correction_options.h"
+#include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
 #include "calibration/calibration_run.h"
@@ -136,6 +137,11 @@ Calibration calibrateRecording(const CalibrateOptions& o) {
 }
 
 void calibrate(CalibrateOptions o) {
+  OutputCheck check;
+  check.readsRecording(o.recording.string());
+  for (const fs::path& input : {o.forest, o.posedb, o.shape_space}) check.reads(input);
+  check.writes("--out", o.out);
+  check.writes("--preview", o.preview);
   o.config.check.tolerance_rad = o.tolerance_deg * std::numbers::pi / 180.0;
   const bool is_camera = !fs::exists(o.recording) && checkSourceName(o.recording.string()).empty();
   if (is_camera && o.config.any_pose) {

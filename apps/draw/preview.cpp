@@ -1,9 +1,13 @@
 #include "apps/draw/preview.h"
 
+#include <array>
+#include <fstream>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +16,7 @@
 #include "apps/draw/painter.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/core/read_file.h"
 
 namespace depthmocap {
 
@@ -19,15 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kEnding = ".mp4";                   // tells OpenCV the container
+constexpr std::size_t kMostPipedBytes = mebibytes(1024);  // of a film for a device or a pipe; that of an hour has less
 constexpr std::size_t kSheetPictures = 12;
 constexpr int kSheetColumns = 3;
 constexpr int kSheetGap = 6;  // [px]
 const cv::Scalar kSheetGapColor(90, 82, 76);
-
-// Beside the target, so that the rename stays on one file system; the ending tells OpenCV the container.
-fs::path temporaryBeside(const fs::path& path) {
-  return path.parent_path() / fmt::format(".{}.part.mp4", path.filename().string());
-}
 
 void openVideo(const fs::path& path, double fps, cv::VideoWriter& video) {
   const cv::Size size(kPreviewWidth, kPreviewHeight);
@@ -37,46 +39,64 @@ void openVideo(const fs::path& path, double fps, cv::VideoWriter& video) {
   }
 }
 
+// Whether a film is all there: OpenCV does not tell of a full disk. An MP4 file is a row of boxes, each 32 bits of size
+// (1: 64 more bits hold it) and 4 characters of name; "moov", which says where the pictures are, is written last.
+bool isWholeFilm(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code failure;
+  const std::uintmax_t end = fs::file_size(path, failure);
+  const auto number = [&file](int bytes) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < bytes; ++i) value = value << 8U | static_cast<std::uint8_t>(file.get());
+    return value;
+  };
+  bool has_index = false;
+  for (std::uint64_t at = 0; !failure && at != end;) {
+    file.seekg(static_cast<std::streamoff>(at));
+    std::uint64_t size = number(4);
+    std::array<char, 4> name{};
+    file.read(name.data(), name.size());
+    if (size == 1) size = number(8);
+    constexpr std::uint64_t kHead = 8;
+    if (!file || size < kHead || size > end - at) return false;
+    has_index = has_index || std::string_view(name.data(), name.size()) == "moov";
+    at += size;
+  }
+  return has_index;
+}
+
 }  // namespace
 
 struct PreviewWriter::Impl {
+  Impl(const fs::path& path_, const CameraModel& camera) : path(path_), pending(path_, kEnding), painter(camera) {
+    // OpenCV seeks in the film, so that it cannot be written to a pipe; a whole one can be copied there.
+    if (pending.isDirect()) scratch.emplace(fs::temp_directory_path() / "depthmocap-preview", kEnding);
+  }
+  [[nodiscard]] const fs::path& film() const { return scratch ? scratch->writtenTo() : pending.writtenTo(); }
+
   fs::path path;
-  fs::path temporary;
+  PendingFile pending;
+  std::optional<PendingFile> scratch;
   PreviewPainter painter;
   cv::VideoWriter video;
   std::size_t frames = 0;
-
-  void discard() {
-    std::error_code ignored;
-    video.release();
-    fs::remove(temporary, ignored);
-  }
 };
 
 PreviewWriter::PreviewWriter(const fs::path& path, const CameraModel& camera, double fps)
-    : impl_(new Impl{path, temporaryBeside(path), PreviewPainter(camera), {}, 0}) {
-  std::error_code ignored;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, ignored))
-    throw Error("its folder does not exist", path.string(), "make the folder first");
-  if (fs::is_directory(path, ignored)) throw Error("is a folder", path.string(), "name a file");
+    : impl_(new Impl{path, camera}) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // failures are ours to report
-  openVideo(impl_->temporary, fps, impl_->video);
-  if (!impl_->video.isOpened()) {
-    impl_->discard();
-    throw Error("cannot write an MP4 film", path.string(), "is the folder writable, and was OpenCV built with FFmpeg?");
-  }
+  openVideo(impl_->film(), fps, impl_->video);
+  if (!impl_->video.isOpened()) throw Error("cannot write an MP4 film", path.string(), "was OpenCV built with FFmpeg?");
 }
 
 PreviewWriter::PreviewWriter(PreviewWriter&&) noexcept = default;
 
 PreviewWriter::~PreviewWriter() {
-  if (!impl_ || !impl_->video.isOpened()) return;
+  if (!impl_ || !impl_->video.isOpened() || impl_->frames == 0) return;
   try {
-    if (impl_->frames > 0) finish();
-  } catch (const Error&) {  // a destructor cannot report; the temporary file goes away below
+    finish();
+  } catch (const Error&) {  // a destructor cannot report
   }
-  impl_->discard();
 }
 
 void PreviewWriter::write(const PreviewFrame& frame) {
@@ -86,15 +106,13 @@ void PreviewWriter::write(const PreviewFrame& frame) {
 
 void PreviewWriter::finish() {
   impl_->video.release();
-  std::error_code failure;
-  if (fs::file_size(impl_->temporary, failure) == 0 || failure) {
-    impl_->discard();
+  if (!isWholeFilm(impl_->film()))
     throw Error("the film could not be written", impl_->path.string(), "is the disk full?");
+  if (impl_->scratch) {
+    writeFileAtomically(impl_->path, readFile(impl_->film(), "the film", kMostPipedBytes));
+  } else {
+    impl_->pending.commit();
   }
-  fs::rename(impl_->temporary, impl_->path, failure);
-  if (!failure) return;
-  impl_->discard();
-  throw Error("cannot move the film into place: " + failure.message(), impl_->path.string());
 }
 
 // Keeps every stride-th picture; when too many have gathered, every second goes and the stride doubles.

@@ -10,6 +10,7 @@
 #include "apps/commands.h"
 #include "apps/ik/evaluate.h"
 #include "apps/ik/setup.h"
+#include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/ik/ik_files.h"
@@ -43,6 +44,9 @@ void solve(const SolveOptions& o) {
   if (o.targets.empty()) throw CLI::RequiredError("--targets");
   if (o.out.empty()) throw CLI::RequiredError("--out");
   const IkConfig config = configOf(o);
+  OutputCheck check;
+  for (const fs::path& input : {o.targets, o.actor, o.priors}) check.reads(input);
+  check.writes("--out", o.out);
   const std::vector<PoseTargets> poses = readTargetsFile(o.targets);
   const IkSolver solver(ikSkeleton(o), config, config.prior == IkPrior::None ? nullptr : ikLearnedPoses(o));
   std::vector<IkResult> results(poses.size());

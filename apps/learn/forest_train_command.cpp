@@ -11,6 +11,7 @@
 
 #include "apps/learn/forest_commands.h"
 #include "apps/learn/forest_data.h"
+#include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "depthmocap/error.h"
 #include "forest/train/communicator.h"
@@ -116,9 +117,7 @@ void prepareTraining(TrainCommand& c) {
   c.training.threads = c.data.threads;
   c.training.memory_bytes = static_cast<std::size_t>(c.memory_gb * 1e9);
   const fs::path out(c.out);
-  if (out.has_parent_path() && !fs::is_directory(out.parent_path())) {
-    throw Error("there is no such folder", out.parent_path().string(), "make it or choose another --out");
-  }
+  OutputCheck().writes("--out", out);
   if (!c.checkpoint_folder.empty()) {
     fs::create_directories(c.checkpoint_folder);
     c.training.checkpoint = fs::path(c.checkpoint_folder) / out.stem().replace_extension(".checkpoint");

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "depthmocap/error.h"
 #include "forest/pose_model/fit_pose_mixture.h"
@@ -131,9 +132,12 @@ void build(const BuildOptions& o) {
   if (o.motions.empty() && !o.procedural) {
     throw CLI::RequiredError("--motions DIR or --procedural");
   }
-  // Found now, not after minutes of work.
-  const fs::path folder = o.out.has_parent_path() ? o.out.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder)) throw Error("the folder does not exist", o.out.string(), "create it first");
+  OutputCheck check;
+  check.reads(o.samples);
+  for (const fs::path& folder : o.motions) {
+    for (const fs::path& file : findMotionFiles(folder)) check.reads(file);
+  }
+  check.writes("--out", o.out);
   const PoseMixture mixture = o.samples.empty() ? PoseMixture{} : loadPoseMixture(o.samples);
   const auto start = std::chrono::steady_clock::now();
   ReadMotions read = readMotions(o);
@@ -167,6 +171,9 @@ struct LearnOptions {
 };
 
 void learn(const LearnOptions& o) {
+  OutputCheck check;
+  check.reads(o.database);
+  check.writes("--out", o.out);
   const PoseDatabase database = loadPoseDatabase(o.database);
   PoseMixture mixture = fitPoseMixture(database, o.config);
   mixture.origin = fmt::format("learned from {} poses: {}", database.size(), database.origin);
@@ -185,6 +192,11 @@ struct LearnPriorsOptions {
 };
 
 void learnPriors(const LearnPriorsOptions& o) {
+  OutputCheck outputs;
+  outputs.reads(o.database);
+  outputs.reads(o.check);
+  outputs.writes("--out", o.out);
+  outputs.writes("--report", o.report);
   const PoseDatabase database = loadPoseDatabase(o.database);
   const PoseDatabase check = o.check.empty() ? PoseDatabase{} : loadPoseDatabase(o.check);
   const auto start = std::chrono::steady_clock::now();

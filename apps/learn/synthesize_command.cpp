@@ -16,6 +16,7 @@
 
 #include "apps/commands.h"
 #include "apps/terminal/progress.h"
+#include "apps/terminal/stop_request.h"
 #include "depthmocap/error.h"
 #include "forest/render/synthesize.h"
 #include "libtracker/body/builtin_body.h"
@@ -195,8 +196,12 @@ void synthesize(const SynthesizeOptions& o) {
   const BodySurface body = makeBody(o);
   if (!o.second_motion.empty() || config.scene == SceneKind::Bystander) config.bystander = bystanderOf(o, config);
   {
+    const StopRequest on_ctrl_c;
     Progress progress("rendering", clip.poses.size());
-    synthesizeRecording(clip, body, config, o.out, [&](std::size_t done) { progress.update(done); });
+    synthesizeRecording(clip, body, config, o.out, [&](std::size_t done) {
+      if (StopRequest::made()) throw Error("stopped before the end; nothing was written", o.out.string());
+      progress.update(done);
+    });
   }
   std::cerr << "rendered " << clip.poses.size() << " frames to " << o.out.string() << '\n';
 }

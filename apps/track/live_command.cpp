@@ -129,6 +129,11 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
 }
 
 void live(const LiveOptions& options) {
+  OutputCheck check;
+  check.readsRecording(options.source.source);
+  check.reads(options.source.camera_file);
+  checkTrackOptions(check, options.track);
+  check.writesFolder("--record", options.record);
   LiveRun run(options);
   const StopRequest on_ctrl_c;
   const SensorClock::time_point start = SensorClock::now();

@@ -56,6 +56,9 @@ void stayForView(ReplayView& view) {
 }
 
 void replay(const ReplayOptions& o) {
+  OutputCheck check;
+  check.readsRecording(o.recording.string());
+  checkTrackOptions(check, o.track);
   const auto start = Clock::now();
   const StopRequest on_ctrl_c;
   const RecordingCorrection correction = o.correction.read();

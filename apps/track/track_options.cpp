@@ -63,6 +63,19 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
       ->capture_default_str();
 }
 
+void checkTrackOptions(OutputCheck& check, const TrackOptions& o) {
+  for (const auto& input : {o.actor, o.forest, o.posedb, o.config}) check.reads(input);
+  check.writes("--joints", o.joints);
+  check.writes("--pose", o.pose);
+  check.writes("--bvh", o.bvh);
+  check.writes("--gltf", o.gltf);
+  check.writesFolder("--labels", o.labels);
+  check.writes("--preview", o.preview);
+  check.writes("--contact-sheet", o.contact_sheet);
+  check.writes("--stats", o.stats);
+  check.writes("--save-config", o.save_config);
+}
+
 void addLookAheadOption(CLI::App& command, double& seconds) {
   command
       .add_option("--look-ahead", seconds,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/terminal/output_check.h"
 #include "apps/view/view_options.h"
 
 namespace CLI {
@@ -42,6 +43,9 @@ struct TrackOptions {
 void addTrackOptions(CLI::App& command, TrackOptions& options);
 
 // --look-ahead; `seconds` keeps its value unless it is given.
+// Adds what the options read and write. Error as OutputCheck.
+void checkTrackOptions(OutputCheck& check, const TrackOptions& options);
+
 void addLookAheadOption(CLI::App& command, double& seconds);
 
 }  // namespace depthmocap

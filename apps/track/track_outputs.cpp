@@ -55,8 +55,9 @@ class LabelWriter {
     const cv::Mat image(labels.height, labels.width, CV_8UC1, const_cast<std::uint8_t*>(labels.data.data()));
     std::vector<std::uint8_t> png;
     cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 3});
-    writeFileAtomically(folder_ / name, {reinterpret_cast<const char*>(png.data()), png.size()});
+    writeFileAtomically(folder_ / name, {reinterpret_cast<const char*>(png.data()), png.size()}, Sync::WithFolder);
   }
+  void finish() { syncFolder(folder_); }
 
  private:
   fs::path folder_;
@@ -140,6 +141,7 @@ void TrackOutputs::finish() {
   Files& f = *files_;
   if (f.joints) f.joints->finish();
   if (f.pose) f.pose->finish();
+  if (f.labels) f.labels->finish();
   if (f.preview) f.preview->finish();
   if (f.contact_sheet) f.contact_sheet->finish();
   f.animation.write();

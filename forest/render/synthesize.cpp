@@ -225,13 +225,15 @@ void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const 
   std::vector<Pose> bystander;
   if (config.bystander) bystander = stageBystander(*config.bystander, staged);
   const Surroundings surroundings(sceneFor(config, body, staged, bystander), config, bystander);
-  RecordingWriter recording(folder, infoOf(config, clip.fps, staged.path_scale));
-  const fs::path labels = folder / "truth" / "labels";
+  RecordingWriter recording(folder, infoOf(config, clip.fps, staged.path_scale),
+                            RecordingWriter::Appears::WhenFinished);
+  const fs::path truth_folder = recording.folder() / "truth";
+  const fs::path labels = truth_folder / "labels";
   makeLabelFolder(labels);
-  TruthFiles truth(folder / "truth", "", body.skeleton, config);
+  TruthFiles truth(truth_folder, "", body.skeleton, config);
   std::optional<TruthFiles> second;
   if (config.bystander && config.bystander->in_truth) {
-    second.emplace(folder / "truth", "-2", config.bystander->body.skeleton, config);
+    second.emplace(truth_folder, "-2", config.bystander->body.skeleton, config);
   }
 
   const auto workers = static_cast<std::size_t>(config.threads);
@@ -265,6 +267,7 @@ void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const 
   }
   truth.finish();
   if (second) second->finish();
+  recording.finish();
 }
 
 }  // namespace depthmocap

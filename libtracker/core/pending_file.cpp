@@ -21,19 +21,7 @@ namespace {
 constexpr int kTemporaryNames = 1000;
 constexpr int kMostLinks = 40;  // symbolic links to follow, as many as Linux does
 
-// The file that a path stands for, which may not exist yet; empty where it is an open file of a process
-// (/dev/stdout is a link to /proc/self/fd/1), which a new file of the same name would not reach.
-fs::path linkTarget(fs::path path) {
-  std::error_code unused;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, unused); ++i) {
-    const fs::path folder = fs::absolute(path, unused).parent_path();
-    if (fs::weakly_canonical(folder, unused).native().starts_with("/proc/")) return {};
-    path = folder / fs::read_symlink(path, unused);
-  }
-  return path;
-}
-
-// Synced file descriptors; a file system that cannot do so is passed over.
+// Opens and syncs; a file system that cannot do so is passed over.
 bool synced(const fs::path& path, int flags, int (*sync)(int)) {
   const int file = open(path.c_str(), flags | O_CLOEXEC);
   if (file < 0) return false;
@@ -49,6 +37,16 @@ fs::path folderOf(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path linkTarget(fs::path path) {
+  std::error_code unused;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, unused); ++i) {
+    const fs::path folder = fs::absolute(path, unused).parent_path();
+    if (fs::weakly_canonical(folder, unused).native().starts_with("/proc/")) return {};
+    path = folder / fs::read_symlink(path, unused);
+  }
+  return path;
+}
 
 PendingFile::PendingFile(fs::path path, const std::string& ending)
     : path_(std::move(path)), target_(linkTarget(path_)) {

@@ -8,6 +8,10 @@ namespace depthmocap {
 // small files is much faster.
 enum class Sync { AtOnce, WithFolder };
 
+// The file that a path stands for when symbolic links are followed; it may not exist yet. Empty where it is an open
+// file of a process (/dev/stdout is a link to /proc/self/fd/1), which a new file of the same name would not reach.
+std::filesystem::path linkTarget(std::filesystem::path path);
+
 // Where a file is written until it is whole: a new, empty file beside `path` of a name that nothing had, renamed into
 // place by commit(). Symbolic links are followed and stay. What is no regular file (/dev/null, a FIFO, /dev/stdout,
 // whatever that is connected to) is never replaced: it is written directly. Every failure throws Error naming the path

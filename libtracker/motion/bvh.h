@@ -1,10 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "libtracker/core/atomic_file.h"
 #include "libtracker/motion/source_motion.h"
 
 namespace depthmocap {
@@ -14,39 +14,33 @@ namespace depthmocap {
 // its parent's tip. Unknown keywords of the hierarchy are skipped with their line. Error with file:line.
 SourceMotion readBvh(const std::filesystem::path& path);
 
-// Writes BVH row by row into a temporary file beside `path`; finish() completes and renames it, and without it nothing
-// stays. Channels: root Xposition Yposition Zposition Zrotation Yrotation Xrotation, every other bone Zrotation
-// Yrotation Xrotation, with positions before them where bones move in their parents (`moving_bones`); the Euler angles
-// [deg] continue those of the row before. Lengths are multiplied by `scale`. Errors name the file.
+// Writes BVH row by row; the file appears at finish(), which knows how many there are, and without it nothing stays.
+// Rows wait in memory, half a kilobyte each. Channels: root Xposition Yposition Zposition Zrotation Yrotation
+// Xrotation, every other bone Zrotation Yrotation Xrotation, with positions before them where bones move in their
+// parents (`moving_bones`); the Euler angles [deg] continue those of the row before. Lengths are multiplied by `scale`.
+// Errors name the file.
 class BvhRows {
  public:
   BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale,
           bool moving_bones = false);
-  ~BvhRows();
-  BvhRows(const BvhRows&) = delete;
-  BvhRows& operator=(const BvhRows&) = delete;
 
   // `positions` of the bones in their parents, one per bone; only the root's is read unless bones move.
   void write(const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Quaterniond>& rotations);
   void finish();
 
  private:
-  void header();
   void bone(std::size_t index, int depth);
-  void check() const;
 
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  AtomicFile file_;
   std::vector<MotionBone> bones_;
   double fps_;
   double scale_;
   bool moving_bones_;
-  std::ofstream out_;
+  std::string hierarchy_;
+  std::string rows_;
   std::vector<std::size_t> order_;  // bones as the hierarchy lists them
-  std::streamoff frames_at_ = 0;    // where the number of frames stands
   std::int64_t frames_ = 0;
   std::vector<Eigen::Vector3d> angles_;  // of the row before, z y x [rad], one per bone
-  bool finished_ = false;
 };
 
 // Writes a whole motion; bones are rigid (position channels only at the root).

@@ -1,11 +1,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <system_error>
 
 #include <fmt/format.h>
 
-#include "depthmocap/error.h"
 #include "libtracker/core/check.h"
 #include "libtracker/motion/bvh.h"
 
@@ -16,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-// Width of the number of frames, which is known only at the end and then written over the blanks.
+// Width of the number of frames, the same for any number.
 constexpr int kFramesWidth = 12;
 
 Vector3d unwrapped(const Vector3d& angles, const Vector3d& near) {
@@ -46,25 +44,11 @@ Vector3d eulerZyx(const Eigen::Matrix3d& R, const Vector3d& near) {
 }  // namespace
 
 BvhRows::BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale, bool moving_bones)
-    : path_(std::move(path)), bones_(std::move(bones)), fps_(fps), scale_(scale), moving_bones_(moving_bones) {
+    : file_(path), bones_(std::move(bones)), fps_(fps), scale_(scale), moving_bones_(moving_bones) {
   DMC_CHECK(!bones_.empty() && bones_[0].parent < 0 && fps > 0 && scale > 0);
-  temporary_ = path_;
-  temporary_ += ".part";
-  out_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!out_) throw Error("cannot write the file", path_.string(), "does the folder exist, and may it be written to?");
   angles_.assign(bones_.size(), Vector3d::Zero());
-  header();
-}
-
-BvhRows::~BvhRows() {
-  if (finished_) return;
-  out_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
-
-void BvhRows::check() const {
-  if (!out_) throw Error("writing failed", path_.string(), "is the disk full?");
+  bone(0, 0);
+  DMC_CHECK(order_.size() == bones_.size());
 }
 
 void BvhRows::bone(std::size_t index, int depth) {
@@ -74,10 +58,10 @@ void BvhRows::bone(std::size_t index, int depth) {
   const auto offset = [&](const Vector3d& v) {
     return fmt::format("OFFSET {:.6f} {:.6f} {:.6f}\n", scale_ * v.x(), scale_ * v.y(), scale_ * v.z());
   };
-  out_ << indent << (depth == 0 ? "ROOT " : "JOINT ") << bone.name << '\n' << indent << "{\n";
-  out_ << indent << "  " << offset(depth == 0 ? Vector3d::Zero() : bone.offset);
-  out_ << indent << (depth == 0 || moving_bones_ ? "  CHANNELS 6 Xposition Yposition Zposition " : "  CHANNELS 3 ")
-       << "Zrotation Yrotation Xrotation\n";
+  hierarchy_ += fmt::format("{0}{1} {2}\n{0}{{\n{0}  {3}", indent, depth == 0 ? "ROOT" : "JOINT", bone.name,
+                            offset(depth == 0 ? Vector3d::Zero() : bone.offset));
+  hierarchy_ += fmt::format("{}  CHANNELS {} Zrotation Yrotation Xrotation\n", indent,
+                            depth == 0 || moving_bones_ ? "6 Xposition Yposition Zposition" : "3");
   bool has_child = false;
   for (std::size_t child = index + 1; child < bones_.size(); ++child) {
     if (bones_[child].parent != static_cast<int>(index)) continue;
@@ -85,23 +69,13 @@ void BvhRows::bone(std::size_t index, int depth) {
     this->bone(child, depth + 1);
   }
   if (bone.has_tip || !has_child) {
-    out_ << indent << "  End Site\n" << indent << "  {\n" << indent << "    " << offset(bone.tip) << indent << "  }\n";
+    hierarchy_ += fmt::format("{0}  End Site\n{0}  {{\n{0}    {1}{0}  }}\n", indent, offset(bone.tip));
   }
-  out_ << indent << "}\n";
-}
-
-void BvhRows::header() {
-  out_ << "HIERARCHY\n";
-  bone(0, 0);
-  DMC_CHECK(order_.size() == bones_.size());
-  out_ << "MOTION\nFrames: ";
-  frames_at_ = out_.tellp();
-  out_ << std::string(kFramesWidth, ' ') << '\n' << fmt::format("Frame Time: {:.8f}\n", 1.0 / fps_);
-  check();
+  hierarchy_ += indent + "}\n";
 }
 
 void BvhRows::write(const std::vector<Vector3d>& positions, const std::vector<Eigen::Quaterniond>& rotations) {
-  DMC_CHECK(rotations.size() == bones_.size() && !finished_);
+  DMC_CHECK(rotations.size() == bones_.size());
   DMC_CHECK(positions.size() == bones_.size() || (positions.size() == 1 && !moving_bones_));
   std::string row;
   const auto add = [&](const Vector3d& v) {
@@ -112,20 +86,16 @@ void BvhRows::write(const std::vector<Vector3d>& positions, const std::vector<Ei
     angles_[b] = eulerZyx(rotations[b].toRotationMatrix(), angles_[b]);
     add(kDegrees * angles_[b]);
   }
-  out_ << row << '\n';
-  check();
+  rows_ += row + '\n';
   ++frames_;
 }
 
 void BvhRows::finish() {
-  out_.seekp(frames_at_);
-  out_ << fmt::format("{:>{}}", frames_, kFramesWidth);
-  out_.close();
-  check();
-  std::error_code failure;
-  std::filesystem::rename(temporary_, path_, failure);
-  if (failure) throw Error("cannot write the file: " + failure.message(), path_.string());
-  finished_ = true;
+  file_.write("HIERARCHY\n");
+  file_.write(hierarchy_);
+  file_.write(fmt::format("MOTION\nFrames: {:>{}}\nFrame Time: {:.8f}\n", frames_, kFramesWidth, 1.0 / fps_));
+  file_.write(rows_);
+  file_.commit();
 }
 
 void writeBvh(const SourceMotion& motion, const std::filesystem::path& path, double scale) {

@@ -67,6 +67,12 @@ void ImageListReader::read(std::size_t i, DepthFrame& frame) {
   toMetres(raw_, info_.depth_unit_m, undistortion_, frame.depth);
 }
 
+std::vector<fs::path> ImageListReader::files() const {
+  std::vector<fs::path> files;
+  for (const IndexEntry& entry : index_) files.push_back(entry.file);
+  return files;
+}
+
 fs::path pathInside(const fs::path& folder, std::string_view name, const std::string& where) {
   const fs::path relative(name);
   const bool escapes = std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end();

@@ -25,6 +25,7 @@ class ImageListReader : public RecordingReader {
   [[nodiscard]] std::int64_t frameNumber(std::size_t i) const override { return index_[i].frame; }
   [[nodiscard]] double time(std::size_t i) const override { return index_[i].time_s; }
   void believe(const CameraModel& camera, double depth_unit_m) override;
+  [[nodiscard]] std::vector<std::filesystem::path> files() const override;
 
  private:
   void takeDistortionOut();

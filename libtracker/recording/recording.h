@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "depthmocap/camera_model.h"
 #include "depthmocap/depth_frame.h"
@@ -44,6 +45,8 @@ struct RecordingCorrection {
   std::optional<RecordingInfo> camera;  // intrinsics, distortion and depth step; none: the recording's own
   std::optional<double> depth_unit_m;   // [m] (> 0) a stored step, also before the camera's; none: that
   int turn_deg = 0;                     // (0, 90, 180, 270) clockwise, that makes the pictures upright
+  // The pictures' files; empty where they do not have their own.
+  [[nodiscard]] virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
 // Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN,
@@ -58,15 +61,21 @@ std::unique_ptr<RecordingReader> openRecording(const std::filesystem::path& path
 // file system, throws Error.
 class RecordingWriter {
  public:
-  // WithFirstFrame: until its first frame is written, the folder's name ends in ".partial", so that whatever ends the
-  // program, a recording can be opened. One without a frame is removed at the end.
-  enum class Appears { AtOnce, WithFirstFrame };
-  RecordingWriter(const std::filesystem::path& path, const RecordingInfo& info, Appears appears = Appears::AtOnce);
+  // Until its first frame is written, or until finish(), the folder's name ends in ".partial", so that whatever ends
+  // the program, what has the recording's name can be opened. What has not appeared is removed at the end; what a
+  // program left that was killed, by the next writer of the same name.
+  enum class Appears { WithFirstFrame, WhenFinished };
+  RecordingWriter(const std::filesystem::path& path, const RecordingInfo& info,
+                  Appears appears = Appears::WithFirstFrame);
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
   // Depth is rounded to info.depth_unit_m; farther than 65535 units becomes 0.
   void write(const DepthFrame& frame);
+  // Where the recording is now, for what else belongs into it.
+  [[nodiscard]] const std::filesystem::path& folder() const;
+  // All is on the disk; nothing may follow.
+  void finish();
 
  private:
   struct Impl;

@@ -1,13 +1,20 @@
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/pending_file.h"
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/recording_header.h"
@@ -21,21 +28,70 @@ namespace {
 constexpr double kLargestStep = 65535.0;
 constexpr double kTimeSteps = 1e6;  // per second, as many as frames.csv shows
 
-void refuseToOverwrite(const fs::path& folder, const std::string& advice) {
-  std::error_code failure;
-  if (fs::exists(folder, failure) && !(fs::is_directory(folder, failure) && fs::is_empty(folder, failure))) {
-    throw Error("exists already and is not overwritten", folder.string(), advice);
+// Holds a folder as long as it is written: by this a writer at work is told from one that was killed.
+class FolderLock {
+ public:
+  FolderLock() = default;
+  ~FolderLock() { release(); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  // False where another writer holds it.
+  bool take(const fs::path& folder) {
+    release();
+    file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    return file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
   }
+  void release() {
+    if (file_ >= 0) close(file_);
+    file_ = -1;
+  }
+
+ private:
+  int file_ = -1;
+};
+
+void refuseToOverwrite(const fs::path& folder) {
+  std::error_code failure;
+  if (!fs::exists(folder, failure) || (fs::is_directory(folder, failure) && fs::is_empty(folder, failure))) return;
+  FolderLock lock;
+  if (!lock.take(folder)) throw Error("is being written by another program", folder.string(), "name a new folder");
+  throw Error("exists already and is not overwritten", folder.string(), "remove it or name a new folder");
 }
 
 fs::path waitingName(fs::path folder) {
   return folder += ".partial";
 }
 
-void makeFolder(const fs::path& folder) {
+bool holdsOnlyARecording(const fs::path& folder) {
+  constexpr std::array<std::string_view, 4> kContent = {"recording.json", "frames.csv", "depth", "truth"};
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = std::ranges::any_of(kContent, [&](std::string_view own) { return name.starts_with(own); });
+    if (!ours) return false;
+  }
+  return !failure;
+}
+
+// A writer that was killed left it.
+void removeLeftover(const fs::path& folder) {
+  std::error_code failure;
+  if (!fs::exists(fs::symlink_status(folder, failure))) return;
+  FolderLock lock;
+  if (!lock.take(folder)) throw Error("is being written by another program", folder.string(), "name a new folder");
+  if (!fs::is_directory(fs::symlink_status(folder, failure)) || !holdsOnlyARecording(folder)) {
+    throw Error("exists already and is not overwritten", folder.string(), "remove it or name a new folder");
+  }
+  fs::remove_all(folder, failure);
+  if (failure) throw Error("cannot be removed: " + failure.message(), folder.string());
+}
+
+void makeFolder(const fs::path& folder, FolderLock& lock) {
   std::error_code failure;
   fs::create_directories(folder / "depth", failure);
   if (failure) throw Error("cannot be created: " + failure.message(), folder.string());
+  if (!lock.take(folder)) throw Error("is being written by another program", folder.string(), "name a new folder");
 }
 
 std::uint16_t toSteps(float depth_m, double depth_unit_m) {
@@ -56,7 +112,9 @@ struct RecordingWriter::Impl {
 
   fs::path name;         // of the recording
   fs::path folder;       // where it is now
-  bool waiting = false;  // for the first frame, in a folder of another name
+  bool waiting = false;  // in a folder of another name
+  Appears appears = Appears::WithFirstFrame;
+  FolderLock lock;
   RecordingInfo info;
   std::int64_t last_frame = -1;
   double last_time_s = 0;
@@ -92,14 +150,12 @@ RecordingWriter::RecordingWriter(const fs::path& path, const RecordingInfo& info
     : impl_(std::make_unique<Impl>()) {
   impl_->name = path.has_filename() ? path : path.parent_path();  // "take/" is "take"
   impl_->info = info;
-  impl_->folder = impl_->name;
-  refuseToOverwrite(impl_->name, "remove it or name a new folder");
-  if (appears == Appears::WithFirstFrame) {
-    impl_->folder = waitingName(impl_->name);
-    refuseToOverwrite(impl_->folder, "a recording that ended before its first frame left it; remove it");
-  }
-  makeFolder(impl_->folder);
-  impl_->waiting = appears == Appears::WithFirstFrame;
+  impl_->folder = waitingName(impl_->name);
+  impl_->appears = appears;
+  refuseToOverwrite(impl_->name);
+  removeLeftover(impl_->folder);
+  makeFolder(impl_->folder, impl_->lock);
+  impl_->waiting = true;
   writeRecordingHeader(impl_->folder / "recording.json", info);
   impl_->append("frame,time_s,file\n");
 }
@@ -123,9 +179,18 @@ void RecordingWriter::write(const DepthFrame& frame) {
   const std::string name = fmt::format("depth/{:06d}.png", frame.frame);
   writePng16(impl_->folder / name, impl_->raw);
   impl_->append(fmt::format("{},{:.6f},{}\n", frame.frame, time_s, name));
-  if (impl_->waiting) impl_->appear();
+  if (impl_->waiting && impl_->appears == Appears::WithFirstFrame) impl_->appear();
   impl_->last_frame = frame.frame;
   impl_->last_time_s = time_s;
+}
+
+const fs::path& RecordingWriter::folder() const {
+  return impl_->folder;
+}
+
+void RecordingWriter::finish() {
+  syncFolder(impl_->folder);
+  if (impl_->waiting && impl_->appears == Appears::WhenFinished) impl_->appear();
 }
 
 }  // namespace depthmocap

@@ -27,7 +27,7 @@ Recorder::Recorder(std::filesystem::path folder, const RecordingInfo& info, bool
       info_(info),
       wait_when_full_(wait_when_full),
       capacity_(queue_frames > 0 ? queue_frames : queueLength(info.fps)),
-      writer_(std::make_unique<RecordingWriter>(folder_, info_, RecordingWriter::Appears::WithFirstFrame)),
+      writer_(std::make_unique<RecordingWriter>(folder_, info_)),
       thread_([this] { run(); }) {}
 
 Recorder::~Recorder() {
@@ -95,6 +95,7 @@ void Recorder::finish(std::int64_t missing) {
   join();
   if (status_.written > 0) noteWhatIsMissing(missing);
   if (failure_) std::rethrow_exception(failure_);
+  if (status_.written > 0) writer_->finish();
 }
 
 void Recorder::noteWhatIsMissing(std::int64_t missing) const {

@@ -51,8 +51,8 @@ TEST(IkRequests, TakesEachPriorAndSolver) {
 
 TEST(IkRequests, SaysWhatIsWrong) {
   const std::pair<std::string, const char*> cases[] = {
-      {"", "is no JSON object"},
-      {"[1]", "is no JSON object"},
+      {"", "is not valid JSON"},
+      {"[1]", "must hold a JSON object"},
       {"{}", "targets must be"},
       {R"({"targets": {}})", "targets must be"},
       {R"({"targets": {"left_hand": [0, 0, 0]}})", "no joint 'left_hand'"},

@@ -1,13 +1,18 @@
 #include "apps/draw/preview.h"
 
+#include <csignal>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "depthmocap/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace depthmocap {
 namespace {
@@ -139,6 +144,37 @@ TEST_F(Preview, ContactSheetWithoutAFrameIsAnError) {
   ContactSheet sheet(folder_ / "sheet.png", camera_);
   EXPECT_THROW(sheet.finish(), Error);
   EXPECT_EQ(fileCount(), 0U);
+}
+
+// OpenCV writes on without a word; a limit of the file's size fails as a full disk does.
+TEST_F(Preview, NoticesAFilmThatIsCutShort) {
+  writeBytes(folder_ / "a.mp4", "old");
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{.rlim_cur = 20'000, .rlim_max = limit.rlim_max};
+  PreviewWriter writer(folder_ / "a.mp4", camera_, 30);
+  setrlimit(RLIMIT_FSIZE, &small);
+  for (int i = 0; i < 40; ++i) writer.write(frame(i));
+  const std::string message = errorOf([&] { writer.finish(); });
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_NE(message.find("the film could not be written"), std::string::npos);
+  EXPECT_EQ(readBytes(folder_ / "a.mp4"), "old");
+}
+
+TEST_F(Preview, GoesThroughAPipe) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  std::string film;
+  std::thread reader([&] { film = readBytes(folder_ / "pipe"); });
+  {
+    PreviewWriter writer(folder_ / "pipe", camera_, 30);
+    writer.write(frame(0));
+    writer.finish();
+  }
+  reader.join();
+  EXPECT_EQ(film.substr(4, 4), "ftyp");
+  EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 namespace depthmocap {
 namespace {
 
+namespace fs = std::filesystem;
+
 RecordingInfo smallInfo() {
   RecordingInfo info;
   info.camera.width = 4;
@@ -99,6 +101,48 @@ TEST(RecordingWriter, RefusesFramesThatDoNotFollow) {
   EXPECT_THROW(writer.write(smallFrame(6, 1.0000001)), Error) << "the same time as far as frames.csv can show";
   writer.write(smallFrame(6, 1.1));
   EXPECT_EQ(openRecording(folder / "rec")->frameCount(), 2U);
+}
+
+TEST(RecordingWriter, AppearsWhenFinished) {
+  const TemporaryFolder folder;
+  {
+    RecordingWriter writer(folder / "rec", smallInfo(), RecordingWriter::Appears::WhenFinished);
+    writer.write(smallFrame(0, 0));
+    EXPECT_EQ(writer.folder(), folder / "rec.partial");
+    EXPECT_FALSE(fs::exists(folder / "rec"));
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path())) << "what is not finished is removed";
+  RecordingWriter writer(folder / "rec", smallInfo(), RecordingWriter::Appears::WhenFinished);
+  writer.write(smallFrame(0, 0));
+  writer.finish();
+  EXPECT_EQ(openRecording(folder / "rec")->frameCount(), 1U);
+  EXPECT_FALSE(fs::exists(folder / "rec.partial"));
+}
+
+TEST(RecordingWriter, TakesTheNameThatAKilledWriterLeft) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "rec.partial/depth");
+  writeBytes(folder / "rec.partial/frames.csv", "frame,time_s,file\n");
+  RecordingWriter(folder / "rec", smallInfo()).write(smallFrame(0, 0));
+  EXPECT_EQ(openRecording(folder / "rec")->frameCount(), 1U);
+}
+
+TEST(RecordingWriter, LeavesAFolderOfOtherThings) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "rec.partial");
+  writeBytes(folder / "rec.partial/diary.txt", "mine");
+  EXPECT_NE(errorOf([&] { RecordingWriter(folder / "rec", smallInfo()); }).find("not overwritten"), std::string::npos);
+  EXPECT_EQ(readBytes(folder / "rec.partial/diary.txt"), "mine");
+}
+
+TEST(RecordingWriter, KnowsOneThatIsBeingWritten) {
+  const TemporaryFolder folder;
+  RecordingWriter writer(folder / "rec", smallInfo());
+  const auto other = [&] { return errorOf([&] { RecordingWriter(folder / "rec", smallInfo()); }); };
+  EXPECT_NE(other().find("is being written by another program"), std::string::npos);
+  writer.write(smallFrame(0, 0));
+  EXPECT_NE(other().find("is being written by another program"), std::string::npos);
+  EXPECT_EQ(openRecording(folder / "rec")->frameCount(), 1U);
 }
 
 }  // namespace
