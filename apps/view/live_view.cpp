@@ -19,7 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLockReach = 6;  // [px] around the click for a measurement
+// Of the page, in one run: who watches all day makes some tens; a page that toggles without end does not fill the disk.
+constexpr int kMostTakes = 100;
+constexpr std::uintmax_t kLeastSpace = std::uintmax_t{2} << 30U;  // [bytes] half an hour of the largest pictures
+constexpr int kLockReach = 6;                                     // [px] around the click for a measurement
 
 // "name-001" and so on: the first that is free.
 fs::path freeName(const fs::path& folder, const std::string& name, const std::string& extension) {
@@ -70,6 +73,7 @@ struct LiveView::Impl {
   const int threads;
   Tracker& tracker;
   ViewFigures figures;
+  int takes = 0;
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<LiveCalibration> calibration;
   LivePage page;
@@ -99,6 +103,12 @@ void LiveView::Impl::obey(const ViewCommand& command, const DepthFrame& frame) {
 void LiveView::Impl::record(bool on) {
   if (on == (recorder != nullptr)) return;
   if (on) {
+    if (++takes > kMostTakes) {
+      throw Error(fmt::format("the page has made {} recordings", kMostTakes), "record", "start live again for more");
+    }
+    std::error_code unknown;
+    const fs::space_info space = fs::space(options.folder, unknown);
+    if (!unknown && space.available < kLeastSpace) throw Error("the disk is nearly full", "record", "free some space");
     const fs::path folder = freeName(options.folder, "take", "");
     recorder = std::make_unique<Recorder>(folder, info, false);
     page.sendEvent("record", "Recording to " + folder.string());

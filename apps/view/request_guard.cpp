@@ -19,15 +19,28 @@ bool sameToken(std::string_view given, std::string_view token) {
   return difference == 0;
 }
 
-bool isOwnLoopbackName(std::string_view host, std::uint16_t port) {
-  for (const std::string_view name : {"127.0.0.1", "localhost", "[::1]"}) {
-    if (host == fmt::format("{}:{}", name, port)) return true;
-    if (port == 80 && host == name) return true;
+bool isOwnLoopbackName(std::string_view host, const GuardConfig& config) {
+  for (const std::string& name : {hostName(config.address), std::string("localhost")}) {
+    if (host == fmt::format("{}:{}", name, config.port)) return true;
+    if (config.port == 80 && host == name) return true;
   }
   return false;
 }
 
 }  // namespace
+
+std::string hostName(std::string_view address) {
+  return address.find(':') == std::string_view::npos ? std::string(address) : fmt::format("[{}]", address);
+}
+
+bool isToken(std::string_view text) {
+  constexpr std::size_t kLongest = 128;
+  constexpr std::string_view kSigns = "-._~";
+  return !text.empty() && text.size() <= kLongest && std::ranges::all_of(text, [&](char c) {
+    const auto lower = static_cast<char>(c | 0x20);
+    return (c >= '0' && c <= '9') || (lower >= 'a' && lower <= 'z') || kSigns.find(c) != std::string_view::npos;
+  });
+}
 
 std::string_view pathOf(std::string_view target) {
   return target.substr(0, target.find('?'));
@@ -53,8 +66,8 @@ bool isLoopback(std::string_view address) {
 
 std::string refusal(const RequestClaim& claim, const GuardConfig& config) {
   if (claim.host.empty()) return "the request names no host";
-  if (config.loopback && !isOwnLoopbackName(claim.host, config.port)) {
-    return "this server answers only to localhost";
+  if (isLoopback(config.address) && !isOwnLoopbackName(claim.host, config)) {
+    return "this server answers only to its own address and localhost";
   }
   if (!claim.origin.empty() && claim.origin != fmt::format("http://{}", claim.host)) {
     return "pages of other origins are not answered";

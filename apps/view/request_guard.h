@@ -14,7 +14,7 @@ struct RequestClaim {
 };
 
 struct GuardConfig {
-  bool loopback = true;  // the server's address is one
+  std::string address = "127.0.0.1";  // that the server listens on
   std::uint16_t port = 0;
   std::string token = {};  // empty: none is asked for
 };
@@ -27,6 +27,11 @@ std::string refusal(const RequestClaim& claim, const GuardConfig& config);
 std::string_view pathOf(std::string_view target);
 // The value of a key in the query; values are taken as they stand.
 std::string_view queryValue(std::string_view target, std::string_view key);
+
+// A numeric address as it stands in a URL: [::1] of ::1.
+std::string hostName(std::string_view address);
+// Whether a text can be a token: at most 128 letters, digits and -._~, which stand in a URL as they are.
+bool isToken(std::string_view text);
 
 // Whether a numeric address is one of 127.0.0.0/8 or ::1.
 bool isLoopback(std::string_view address);

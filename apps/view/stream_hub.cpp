@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
+#include <chrono>
 #include <deque>
 #include <utility>
 
@@ -17,6 +18,8 @@ using Request = beast::http::request<beast::http::string_body>;
 
 constexpr std::size_t kMaxMessageBytes = 4 * 1024;  // of a client
 constexpr std::size_t kMaxWaitingTexts = 32;        // per client
+constexpr std::chrono::seconds kHandshakeTime{5};
+constexpr std::chrono::seconds kSilentTime{60};  // a client that does not even answer a ping for so long is gone
 constexpr const char* kReady = "ready";
 constexpr int kMaxUnconfirmed = 2;
 
@@ -25,12 +28,12 @@ constexpr int kMaxUnconfirmed = 2;
 // One client of /stream. All members are used on the server's thread.
 class StreamClient : public std::enable_shared_from_this<StreamClient> {
  public:
-  StreamClient(beast::tcp_stream stream, StreamHub& hub, std::shared_ptr<ConnectionCount> count)
-      : socket_(std::move(stream)), hub_(hub), count_(std::move(count)) {}
+  StreamClient(beast::tcp_stream stream, StreamHub& hub) : socket_(std::move(stream)), hub_(hub) {}
 
   void run(const Request& request) {
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    socket_.set_option(websocket::stream_base::timeout{kHandshakeTime, kSilentTime, true});
     socket_.read_message_max(kMaxMessageBytes);
+    socket_.control_callback([this](websocket::frame_type, beast::string_view) { heard(); });
     socket_.async_accept(request, [self = shared_from_this()](error_code failure) {
       if (!failure) self->joined();
     });
@@ -45,6 +48,7 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
     texts_.push_back(std::make_shared<const std::string>(text));
     write();
   }
+  [[nodiscard]] std::chrono::steady_clock::time_point lastHeard() const { return last_heard_; }
   [[nodiscard]] bool waitsForFrame() const { return frame_ == nullptr && hasCredit(); }
   void close() {
     hub_.leave(shared_from_this());
@@ -55,6 +59,7 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
   [[nodiscard]] bool hasCredit() const { return !confirms_ || unconfirmed_ < kMaxUnconfirmed; }
 
  private:
+  void heard() { last_heard_ = std::chrono::steady_clock::now(); }
   void joined() {
     hub_.join(shared_from_this());
     if (hub_.greeting) text(hub_.greeting());
@@ -67,6 +72,7 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
     });
   }
   void received() {
+    heard();
     const bool is_text = socket_.got_text();
     const std::string message = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
@@ -102,7 +108,7 @@ class StreamClient : public std::enable_shared_from_this<StreamClient> {
 
   websocket::stream<beast::tcp_stream> socket_;
   StreamHub& hub_;
-  std::shared_ptr<ConnectionCount> count_;
+  std::chrono::steady_clock::time_point last_heard_ = std::chrono::steady_clock::now();
   beast::flat_buffer buffer_;
   bool confirms_ = false;  // the client says "ready" for each frame that it is done with
   int unconfirmed_ = 0;    // frames that were sent and not confirmed
@@ -124,6 +130,11 @@ void StreamHub::sendText(const std::string& text) {
 }
 
 void StreamHub::join(const std::shared_ptr<StreamClient>& client) {
+  if (count_ >= most) {
+    const auto earlier = [](const auto& a, const auto& b) { return a->lastHeard() < b->lastHeard(); };
+    const std::shared_ptr<StreamClient> quietest = *std::ranges::min_element(clients_, earlier);
+    quietest->close();
+  }
   clients_.insert(client);
   count_ = static_cast<int>(clients_.size());
   updateWanted();
@@ -139,9 +150,8 @@ void StreamHub::updateWanted() {
   wanted_ = std::any_of(clients_.begin(), clients_.end(), [](const auto& client) { return client->waitsForFrame(); });
 }
 
-void startStream(beast::tcp_stream connection, StreamHub& hub, std::shared_ptr<ConnectionCount> count,
-                 const Request& request) {
-  std::make_shared<StreamClient>(std::move(connection), hub, std::move(count))->run(request);
+void startStream(beast::tcp_stream connection, StreamHub& hub, const Request& request) {
+  std::make_shared<StreamClient>(std::move(connection), hub)->run(request);
 }
 
 }  // namespace depthmocap

@@ -12,21 +12,11 @@ namespace depthmocap {
 
 class StreamClient;
 
-// Counts a connection as long as it lives.
-class ConnectionCount {
- public:
-  explicit ConnectionCount(int& count) : count_(count) { ++count_; }
-  ~ConnectionCount() { --count_; }
-  ConnectionCount(const ConnectionCount&) = delete;
-  ConnectionCount& operator=(const ConnectionCount&) = delete;
-
- private:
-  int& count_;
-};
-
-// The clients of /stream. Used on the server's thread, but for count() and frameWanted().
+// The clients of /stream, of whom there are at most so many: a newcomer takes the place of the one that was not heard
+// of for longest. Used on the server's thread, but for count() and frameWanted().
 class StreamHub {
  public:
+  int most = 1;                                                 // (>= 1) clients at a time
   std::function<std::string(const std::string& text)> on_text;  // the answer, if any, goes to that client
   std::function<std::string()> greeting;                        // what every client is sent first
 
@@ -49,7 +39,7 @@ class StreamHub {
 };
 
 // Answers the request for an upgrade; from then on the connection is a client of the hub, which outlives it.
-void startStream(boost::beast::tcp_stream connection, StreamHub& hub, std::shared_ptr<ConnectionCount> count,
+void startStream(boost::beast::tcp_stream connection, StreamHub& hub,
                  const boost::beast::http::request<boost::beast::http::string_body>& request);
 
 }  // namespace depthmocap

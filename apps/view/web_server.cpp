@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -16,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/view/connection_pool.h"
 #include "apps/view/request_guard.h"
 #include "apps/view/stream_hub.h"
 #include "depthmocap/error.h"
@@ -35,7 +38,10 @@ namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::chrono::seconds kRequestTime{10};  // for a request to arrive and its answer to leave
+constexpr std::chrono::seconds kHeaderTime{5};          // for the first header of a connection to arrive
+constexpr std::chrono::seconds kRequestTime{10};        // for what follows: bodies, answers, further requests
+constexpr std::chrono::milliseconds kAcceptPause{100};  // where the system has no file descriptor left
+constexpr int kMostAside = 32;                          // requests that wait for the slow handlers
 constexpr std::uint32_t kMaxHeaderBytes = 8 * 1024;
 constexpr const char* kStreamPath = "/stream";
 
@@ -51,7 +57,8 @@ WebContent errorContent(int status, const std::string& text) {
   return {"application/json", nlohmann::json{{"error", text}}.dump(-1, ' ', false, replace), status};
 }
 
-Response responseOf(WebContent content, const Request& request) {
+template <typename Header>
+Response responseOf(WebContent content, const Header& request) {
   Response response{static_cast<http::status>(content.status), request.version()};
   response.set(http::field::content_type, content.type);
   response.set(http::field::cache_control, "no-store");
@@ -62,6 +69,7 @@ Response responseOf(WebContent content, const Request& request) {
   response.keep_alive(request.keep_alive() && content.status < 400);
   response.body() = std::move(content.body);
   response.prepare_payload();
+  if (request.method() == http::verb::head) response.body().clear();  // its length stays in the header
   return response;
 }
 
@@ -73,13 +81,16 @@ struct WebServer::Impl {
   void listen();
   void accept();
   WebContent answer(const Request& request);
-  [[nodiscard]] std::string refusalOf(const Request& request, bool open = false) const;
+  // What a request is refused with by its header alone; nothing if it may be read on.
+  [[nodiscard]] std::optional<WebContent> refused(const http::request_header<>& header) const;
 
   WebServerConfig config;
   GuardConfig guard;
-  int connections = 0;  // server's thread only; outlives those that io still holds
+  ConnectionPool pool;    // server's thread only; outlives the connections that io still holds
+  int waiting_aside = 0;  // likewise
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
+  asio::steady_timer pause{io};
   struct File {
     WebContent content;
     bool open = false;
@@ -95,55 +106,95 @@ struct WebServer::Impl {
 // One HTTP connection, until it ends or becomes a stream.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(tcp::socket socket, WebServer::Impl& server)
-      : stream_(std::move(socket)), server_(server), count_(std::make_shared<ConnectionCount>(server.connections)) {}
+  HttpConnection(tcp::socket socket, WebServer::Impl& server) : stream_(std::move(socket)), server_(server) {}
+  ~HttpConnection() {
+    if (place_) server_.pool.leave(*place_);
+  }
+  HttpConnection(const HttpConnection&) = delete;
+  HttpConnection& operator=(const HttpConnection&) = delete;
 
-  void read() {
-    parser_.emplace();
-    parser_->header_limit(kMaxHeaderBytes);
-    parser_->body_limit(kMostBodyBytes);
-    stream_.expires_after(kRequestTime);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](error_code failure, std::size_t) { self->received(failure); });
+  void start() {
+    error_code ignored;
+    const std::string address = stream_.socket().remote_endpoint(ignored).address().to_string();
+    place_ = server_.pool.enter({address, [this] { stream_.close(); }});
+    read(kHeaderTime);
   }
 
  private:
-  void received(const error_code& failure) {
-    if (failure == http::error::end_of_stream || failure == beast::error::timeout) return;
+  void read(std::chrono::seconds time) {
+    parser_.emplace();
+    parser_->header_limit(kMaxHeaderBytes);
+    parser_->body_limit(kMostBodyBytes);
+    stream_.expires_after(time);
+    http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](error_code failure, std::size_t) {
+      if (failure) return self->failed(failure);
+      self->receivedHeader();
+    });
+  }
+  // What is no HTTP, and what is too large, is told so before the connection ends.
+  void failed(const error_code& failure) {
+    const bool gone = failure == http::error::end_of_stream || failure == beast::error::timeout ||
+                      failure == asio::error::operation_aborted;
+    if (gone) return;
     const bool too_large = failure == http::error::body_limit || failure == http::error::header_limit;
-    if (failure) {
-      // What is no HTTP, and what is too large, is told so before the connection ends.
-      Request none;
-      none.version(11);
-      none.keep_alive(false);
-      return write(
-          responseOf(errorContent(too_large ? 413 : 400, too_large ? "the request is too large"
-                                                                   : "this is no HTTP request: " + failure.message()),
-                     none));
+    Request none;
+    none.version(11);
+    none.keep_alive(false);
+    const std::string text = too_large ? "the request is too large" : "this is no HTTP request: " + failure.message();
+    write(responseOf(errorContent(too_large ? 413 : 400, text), none));
+  }
+  void receivedHeader() {
+    server_.pool.progressed(*place_);
+    const auto& header = parser_->get();
+    if (const auto refused = server_.refused(header)) {
+      Response response = responseOf(*refused, header);
+      response.keep_alive(false);  // a body that was not read may follow
+      return write(std::move(response));
     }
-    if (server_.connections > server_.config.max_connections) {
-      return write(responseOf(errorContent(503, "too many connections"), parser_->get()));
-    }
+    stream_.expires_after(kRequestTime);
+    if (beast::iequals(header[http::field::expect], "100-continue")) return writeContinue();
+    readBody();
+  }
+  void writeContinue() {
+    static constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+    asio::async_write(stream_, asio::buffer(kContinue), [self = shared_from_this()](error_code failure, std::size_t) {
+      if (!failure) self->readBody();
+    });
+  }
+  void readBody() {
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code failure, std::size_t) {
+      if (failure) return self->failed(failure);
+      self->received();
+    });
+  }
+  void received() {
+    server_.pool.progressed(*place_);
     Request request = parser_->release();
-    if (websocket::is_upgrade(request) && pathOf(view(request.target())) == kStreamPath) return upgrade(request);
-    if (request.method() == http::verb::post && server_.aside.contains(std::string(pathOf(view(request.target()))))) {
-      return answerAside(std::move(request));
-    }
+    const std::string path(pathOf(view(request.target())));
+    if (websocket::is_upgrade(request) && path == kStreamPath) return upgrade(request);
+    if (request.method() == http::verb::post && server_.aside.contains(path)) return answerAside(std::move(request));
     write(responseOf(server_.answer(request), request));
   }
   void answerAside(Request request) {
+    if (server_.waiting_aside >= kMostAside) {
+      return write(responseOf(errorContent(503, "too many requests are waiting"), request));
+    }
+    ++server_.waiting_aside;
     // The connection goes over to the worker and back whole: it must end on the server's thread.
     asio::post(server_.worker, [self = shared_from_this(), request = std::move(request)]() mutable {
       self->response_ = responseOf(self->server_.answer(request), request);
       asio::io_context& io = self->server_.io;
-      asio::post(io, [self = std::move(self)] { self->send(); });
+      asio::post(io, [self = std::move(self)] {
+        --self->server_.waiting_aside;
+        self->send();
+      });
     });
   }
   void upgrade(const Request& request) {
-    const std::string refused = server_.refusalOf(request);
-    if (!refused.empty()) return write(responseOf(errorContent(403, refused), request));
+    server_.pool.leave(*place_);
+    place_.reset();
     stream_.expires_never();
-    startStream(std::move(stream_), server_.stream, count_, request);
+    startStream(std::move(stream_), server_.stream, request);
   }
   void write(Response response) {
     response_ = std::move(response);
@@ -153,7 +204,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     stream_.expires_after(kRequestTime);
     http::async_write(stream_, response_, [self = shared_from_this()](error_code failure, std::size_t) {
       if (failure) return;
-      if (self->response_.keep_alive()) return self->read();
+      if (self->response_.keep_alive()) return self->read(kRequestTime);
       error_code ignored;
       self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
     });
@@ -161,16 +212,17 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   beast::tcp_stream stream_;
   WebServer::Impl& server_;
-  std::shared_ptr<ConnectionCount> count_;
+  std::optional<ConnectionPool::Place> place_;
   beast::flat_buffer buffer_{kMaxHeaderBytes + 64 * 1024};
   std::optional<http::request_parser<http::string_body>> parser_;
   Response response_;
 };
 
-WebServer::Impl::Impl(WebServerConfig c) : config(std::move(c)) {
-  DMC_CHECK(config.max_connections >= 1);
+WebServer::Impl::Impl(WebServerConfig c) : config(std::move(c)), pool(config.max_connections) {
+  DMC_CHECK(config.max_connections >= 2 && config.max_streams >= 1);
+  stream.most = config.max_streams;
   listen();
-  guard = {isLoopback(config.address), acceptor.local_endpoint().port(), config.token};
+  guard = {config.address, acceptor.local_endpoint().port(), config.token};
 }
 
 void WebServer::Impl::listen() {
@@ -180,6 +232,9 @@ void WebServer::Impl::listen() {
   if (failure) throw Error("is no numeric address", where, "for example 127.0.0.1 or 0.0.0.0");
   if (!isLoopback(config.address) && config.token.empty()) {
     throw Error("an address that others can reach needs a token", where);
+  }
+  if (!config.token.empty() && !isToken(config.token)) {
+    throw Error("the token must be 1 to 128 letters, digits and -._~", where, "it stands in the page's address");
   }
   const tcp::endpoint endpoint(address, config.port);
   acceptor.open(endpoint.protocol(), failure);
@@ -192,32 +247,39 @@ void WebServer::Impl::listen() {
 void WebServer::Impl::accept() {
   acceptor.async_accept([this](error_code failure, tcp::socket socket) {
     if (failure == asio::error::operation_aborted) return;
-    if (!failure) {
-      error_code ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
-      // Twice as many may wait to be told that there are too many; the rest is closed.
-      if (connections < 2 * config.max_connections) {
-        std::make_shared<HttpConnection>(std::move(socket), *this)->read();
-      }
+    if (failure) {  // no file descriptor is left, as a rule
+      pool.closeSlowest();
+      pause.expires_after(kAcceptPause);
+      return pause.async_wait([this](error_code ended) {
+        if (!ended) accept();
+      });
     }
+    error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    std::make_shared<HttpConnection>(std::move(socket), *this)->start();
     accept();
   });
 }
 
-std::string WebServer::Impl::refusalOf(const Request& request, bool open) const {
+std::optional<WebContent> WebServer::Impl::refused(const http::request_header<>& header) const {
+  for (const http::field once : {http::field::host, http::field::origin, http::field::authorization}) {
+    if (header.count(once) > 1) return errorContent(400, "a field of the header that may stand once stands twice");
+  }
   GuardConfig asked = guard;
-  if (open) asked.token.clear();
-  return refusal({view(request.target()), view(request[http::field::host]), view(request[http::field::origin]),
-                  view(request[http::field::authorization])},
-                 asked);
+  const auto file = files.find(std::string(pathOf(view(header.target()))));
+  if (file != files.end() && file->second.open) asked.token.clear();
+  const std::string why = refusal({view(header.target()), view(header[http::field::host]),
+                                   view(header[http::field::origin]), view(header[http::field::authorization])},
+                                  asked);
+  if (why.empty()) return std::nullopt;
+  return errorContent(403, why);
 }
 
 WebContent WebServer::Impl::answer(const Request& request) {
   const std::string path(pathOf(view(request.target())));
   const auto file = files.find(path);
-  const std::string refused = refusalOf(request, file != files.end() && file->second.open);
-  if (!refused.empty()) return errorContent(403, refused);
-  const http::verb method = request.method();
+  // HEAD is GET without the body.
+  const http::verb method = request.method() == http::verb::head ? http::verb::get : request.method();
   if (const auto handler = handlers.find({method, path}); handler != handlers.end()) {
     try {
       return handler->second(request.body());
@@ -298,9 +360,7 @@ std::uint16_t WebServer::port() const {
 }
 
 std::string WebServer::url() const {
-  const std::string& address = impl_->config.address;
-  const std::string host = address.find(':') == std::string::npos ? address : "[" + address + "]";
-  std::string url = fmt::format("http://{}:{}/", host, port());
+  std::string url = fmt::format("http://{}:{}/", hostName(impl_->config.address), port());
   if (!impl_->config.token.empty()) url += "?token=" + impl_->config.token;
   return url;
 }

@@ -22,16 +22,19 @@ struct WebServerConfig {
   // Has to be shown by every request where the address is no loopback: ?token=... or Authorization: Bearer ...
   // Empty: none is asked for.
   std::string token = {};
-  int max_connections = 32;  // (>= 1) more are answered 503
+  int max_connections = 32;  // (>= 2) with a request on its way; one more takes the place of the slowest
+  int max_streams = 16;      // (>= 1) clients of /stream; one more takes the place of the quietest
 };
 
 // Serves HTTP and WebSocket (Boost.Beast) on a thread of its own. Everything that a client can make grow is bounded:
-// connections, header, body and message sizes, the time of a handshake, and per client one frame and a few texts that
-// wait to be sent. A frame that a client is too slow for is replaced by the next one, for that client alone. A
-// client that confirms frames with the text "ready" gets no more than two that it has not confirmed.
+// connections, header, body and message sizes, the times of a header, a request and a handshake, what waits for the
+// slow handlers, and per client one frame and a few texts that wait to be sent. A frame that a client is too slow for
+// is replaced by the next one, for that client alone. A client that confirms frames with the text "ready" gets no more
+// than two that it has not confirmed.
 //
-// Requests are answered only for the host names that the address has, and where an Origin is named it must be the
-// server's own: pages of others cannot reach it. What is wrong gets a 4xx answer with {"error": "..."}.
+// A request is judged by its header alone: what is refused has no body read. It is answered only for the host names
+// that the address has, and where an Origin is named it must be the server's own: pages of others cannot reach it. What
+// is wrong gets a 4xx answer with {"error": "..."}.
 class WebServer {
  public:
   // Called on the server's thread, but for onPostAside(). A handler that throws Error answers 400 with its text.
@@ -39,7 +42,7 @@ class WebServer {
   // A text message of a client; the answer, if any, goes to that client.
   using TextHandler = std::function<std::string(const std::string& text)>;
 
-  // Error where the address cannot be used, or is no loopback and there is no token.
+  // Error where the address cannot be used, or is no loopback and there is no token, or the token is none (isToken()).
   explicit WebServer(WebServerConfig config);
   ~WebServer();
   WebServer(const WebServer&) = delete;

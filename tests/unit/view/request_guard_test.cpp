@@ -5,19 +5,30 @@
 namespace depthmocap {
 namespace {
 
-const GuardConfig kLocal{.loopback = true, .port = 8010, .token = ""};
-const GuardConfig kOpen{.loopback = false, .port = 8010, .token = "secret"};
+const GuardConfig kLocal{.address = "127.0.0.1", .port = 8010, .token = ""};
+const GuardConfig kOpen{.address = "0.0.0.0", .port = 8010, .token = "secret"};
 
 TEST(RequestGuard, AnswersItsOwnNames) {
-  for (const char* host : {"127.0.0.1:8010", "localhost:8010", "[::1]:8010"}) {
+  for (const char* host : {"127.0.0.1:8010", "localhost:8010"}) {
     EXPECT_EQ(refusal({.target = "/", .host = host}, kLocal), "") << host;
     EXPECT_EQ(refusal({.target = "/", .host = host, .origin = "http://" + std::string(host)}, kLocal), "") << host;
   }
 }
 
+TEST(RequestGuard, AnswersTheAddressThatItListensOn) {
+  EXPECT_EQ(refusal({.target = "/", .host = "127.0.0.2:8010"}, {.address = "127.0.0.2", .port = 8010}), "");
+  EXPECT_EQ(refusal({.target = "/", .host = "[::1]:8010"}, {.address = "::1", .port = 8010}), "");
+}
+
+TEST(RequestGuard, KnowsWhatCanBeAToken) {
+  for (const char* token : {"secret", "a-b._~", "0123456789abcdef"}) EXPECT_TRUE(isToken(token)) << token;
+  for (const char* token : {"", "two words", "a&b", "a#b", "a\nb", "ü", "a=b"}) EXPECT_FALSE(isToken(token)) << token;
+  EXPECT_FALSE(isToken(std::string(129, 'x')));
+}
+
 TEST(RequestGuard, RefusesOtherNamesOnLoopback) {
-  for (const char* host :
-       {"", "evil.example", "evil.example:8010", "localhost", "localhost:80", "127.0.0.1:8010.evil"}) {
+  for (const char* host : {"", "[::1]:8010", "127.0.0.2:8010", "evil.example", "evil.example:8010", "localhost",
+                           "localhost:80", "127.0.0.1:8010.evil"}) {
     EXPECT_NE(refusal({.target = "/", .host = host}, kLocal), "") << host;
   }
 }

@@ -200,16 +200,95 @@ TEST_F(RunningServer, ClientThatConfirmsGetsTwoFramesAtATime) {
   EXPECT_NE(client->receive(size).find("FRAME"), std::string::npos);
 }
 
-TEST_F(RunningServer, RefusesConnectionsBeyondTheLimit) {
+TEST_F(RunningServer, AnswersWhateverSlowConnectionsHold) {
+  std::vector<std::unique_ptr<Connection>> slow;
+  for (int i = 0; i < 100; ++i) {
+    slow.push_back(std::make_unique<Connection>(server_->port()));
+    if (i % 2 == 0) slow.back()->send("POST /echo HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: 9\r\n\r\nx");
+  }
+  for (int i = 0; i < 20; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(ask("GET", "/").rfind("HTTP/1.1 200", 0), 0U) << i;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100)) << i;
+  }
+}
+
+TEST_F(RunningServer, AnswersWhoeverHasTheToken) {
   server_.reset();
-  start({.port = 0, .max_connections = 3});
+  start({.port = 0, .token = "secret"});
+  std::vector<std::unique_ptr<Connection>> strangers;
+  for (int i = 0; i < 70; ++i) strangers.push_back(std::make_unique<Connection>(server_->port()));
+  EXPECT_EQ(ask("GET", "/?token=secret").rfind("HTTP/1.1 200", 0), 0U);
+  EXPECT_EQ(ask("GET", "/").rfind("HTTP/1.1 403", 0), 0U);
+  server_.reset();
+  start({.port = 0});
+}
+
+TEST_F(RunningServer, ClosesWhoSendsNoHeader) {
+  const Connection silent(server_->port());
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 8 && std::chrono::steady_clock::now() - start < std::chrono::seconds(7); ++i) silent.receive(1);
+  silent.send("GET / HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
+  EXPECT_EQ(silent.receive(1), "");
+}
+
+TEST_F(RunningServer, TheQuietestStreamMakesRoomForANewOne) {
+  server_.reset();
+  start({.port = 0, .max_streams = 3});
   std::vector<std::unique_ptr<Connection>> clients;
   std::string answer;
   for (int i = 0; i < 3; ++i) clients.push_back(stream(answer));
   waitForClients(3);
-  EXPECT_EQ(ask("GET", "/").rfind("HTTP/1.1 503", 0), 0U);
+  clients[0]->send(textFrame("play"));  // so that the second was silent for longest
+  clients[0]->receive(7 + 10);
+  clients.push_back(stream(answer));
+  EXPECT_EQ(answer, "HTTP/1.1 101 Switching Protocols");
+  EXPECT_EQ(ask("GET", "/").rfind("HTTP/1.1 200", 0), 0U);
+  EXPECT_EQ(server_->clients(), 3);
+  server_->sendFrame(std::make_shared<const std::string>("FRAME"));
+  EXPECT_NE(clients[0]->receive(7).find("FRAME"), std::string::npos);
+  EXPECT_EQ(clients[1]->receive(1 << 20).find("FRAME"), std::string::npos);
+  EXPECT_NE(clients[3]->receive(7 + 7).find("FRAME"), std::string::npos);
   clients.clear();
   waitForClients(0);
+}
+
+TEST_F(RunningServer, AnswersHeadWithoutABody) {
+  const std::string answer = ask("HEAD", "/");
+  EXPECT_EQ(answer.rfind("HTTP/1.1 200", 0), 0U);
+  EXPECT_NE(answer.find("Content-Length: 11"), std::string::npos);
+  EXPECT_EQ(answer.find("<p>"), std::string::npos);
+  EXPECT_EQ(ask("HEAD", "/none").rfind("HTTP/1.1 404", 0), 0U);
+}
+
+TEST_F(RunningServer, TellsToGoOnBeforeABody) {
+  const Connection connection(server_->port());
+  connection.send("POST /echo HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n" +
+                  "Expect: 100-continue\r\nContent-Length: 9\r\n\r\n");
+  EXPECT_EQ(connection.receive(25), "HTTP/1.1 100 Continue\r\n\r\n");
+  connection.send("some text");
+  EXPECT_NE(connection.receive(1 << 20).find("some text"), std::string::npos);
+}
+
+// What a proxy and we may take for different hosts.
+TEST_F(RunningServer, RefusesAHeaderFieldTwice) {
+  EXPECT_EQ(ask("GET", "/", "Host: evil.example\r\n").rfind("HTTP/1.1 400", 0), 0U);
+  EXPECT_EQ(
+      ask("GET", "/", "Origin: http://" + host() + "\r\nOrigin: http://evil.example\r\n").rfind("HTTP/1.1 400", 0), 0U);
+}
+
+// A body is not worth waiting for where the header is refused.
+TEST_F(RunningServer, RefusesByTheHeaderAlone) {
+  const Connection connection(server_->port());
+  connection.send("POST /echo HTTP/1.1\r\nHost: evil.example\r\nContent-Length: 60000\r\n\r\n");
+  EXPECT_EQ(connection.receive(12).rfind("HTTP/1.1 403", 0), 0U);
+}
+
+TEST(WebServer, PrintsAnAddressThatItAnswers) {
+  WebServer server({.address = "127.0.0.2", .port = 0});
+  EXPECT_EQ(server.url(), "http://127.0.0.2:" + std::to_string(server.port()) + "/");
+  EXPECT_NE(errorOf([] { WebServer other({.port = 0, .token = "two words"}); }).find("token must be"),
+            std::string::npos);
 }
 
 TEST(WebServer, OtherAddressesNeedAToken) {
