@@ -23,3 +23,12 @@ if(DEPTHMOCAP_SANITIZE)
   # without it.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
+
+option(DEPTHMOCAP_FUZZ "Build tests/fuzz as libFuzzer programs; needs clang" OFF)
+if(DEPTHMOCAP_FUZZ)
+  # Asserts are on, Eigen's too.
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=null,alignment,object-size,vptr
+                      -fno-sanitize-recover=all -fno-omit-frame-pointer -UNDEBUG)
+  add_link_options(-fsanitize=address,undefined)
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
