@@ -38,6 +38,8 @@ class RecordingReader {
   // Reads on as if the recording said this of its camera: intrinsics and distortion, for pictures of the size that they
   // have, and the depth step.
   virtual void believe(const CameraModel& camera, double depth_unit_m) = 0;
+  // The pictures' files; empty where they do not have their own.
+  [[nodiscard]] virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
 // What somebody knows better than a recording.
@@ -45,8 +47,6 @@ struct RecordingCorrection {
   std::optional<RecordingInfo> camera;  // intrinsics, distortion and depth step; none: the recording's own
   std::optional<double> depth_unit_m;   // [m] (> 0) a stored step, also before the camera's; none: that
   int turn_deg = 0;                     // (0, 90, 180, 270) clockwise, that makes the pictures upright
-  // The pictures' files; empty where they do not have their own.
-  [[nodiscard]] virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
 // Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN,
