@@ -131,7 +131,7 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
 void live(const LiveOptions& options) {
   OutputCheck check;
   check.readsRecording(options.source.source);
-  check.reads(options.source.camera_file);
+  check.reads(options.source.correction.camera_file);
   checkTrackOptions(check, options.track);
   check.writesFolder("--record", options.record);
   LiveRun run(options);
