@@ -17,6 +17,7 @@ constexpr double kCentimetres = 100.0;
 AnimationFiles::AnimationFiles(const TrackOptions& options, double fps)
     : bvh_(options.bvh),
       gltf_(options.gltf),
+      floor_origin_(options.origin == "floor"),
       bvh_rigid_(options.bvh_rigid),
       bvh_scale_(options.bvh_unit == "cm" ? kCentimetres : 1.0),
       fps_(fps) {}
@@ -39,26 +40,30 @@ void AnimationFiles::add(std::span<const TrackedFrame* const> people) {
 
 void AnimationFiles::write() {
   if (bvh_.empty() && gltf_.empty()) return;
-  bool anybody = false;
-  std::vector<GltfPerson> found;
+  std::vector<int> numbers;
+  std::vector<MotionTrack> tracks;
   for (const Person& person : people_) {
     if (person.motion.empty()) continue;
-    anybody = true;
-    const MotionTrack track = person.motion.track(person.lengths);
-    if (!bvh_.empty()) writeBvh(bvhOf(person), track);
-    if (!gltf_.empty()) found.push_back({person.number, makeBuiltinBody(track.lengths), track});
+    numbers.push_back(person.number);
+    tracks.push_back(person.motion.track(person.lengths));
   }
-  if (!anybody) {
+  if (tracks.empty()) {
     throw Error("nobody was tracked, so there is no motion to write", (bvh_.empty() ? gltf_ : bvh_).string());
+  }
+  if (floor_origin_) moveToFloor(tracks);
+  std::vector<GltfPerson> found;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (!bvh_.empty()) writeBvh(bvhOf(numbers[i]), tracks[i]);
+    if (!gltf_.empty()) found.push_back({numbers[i], makeBuiltinBody(tracks[i].lengths), tracks[i]});
   }
   if (!gltf_.empty()) writeGltf(gltf_, found);
   bvh_.clear();
   gltf_.clear();
 }
 
-std::filesystem::path AnimationFiles::bvhOf(const Person& person) const {
+std::filesystem::path AnimationFiles::bvhOf(int number) const {
   if (people_.size() == 1) return bvh_;
-  return bvh_.parent_path() / fmt::format("{}-{}{}", bvh_.stem().string(), person.number, bvh_.extension().string());
+  return bvh_.parent_path() / fmt::format("{}-{}{}", bvh_.stem().string(), number, bvh_.extension().string());
 }
 
 void AnimationFiles::writeBvh(const std::filesystem::path& path, const MotionTrack& track) const {

@@ -10,7 +10,8 @@
 namespace depthmocap {
 
 // The motion as BVH and glTF, as the options ask. Written at the end: a body's bone lengths are known only then. Of
-// several people each has a BVH file of its own (M-1.bvh, M-2.bvh, ...), and all are in one glTF file.
+// several people each has a BVH file of its own (M-1.bvh, M-2.bvh, ...), and all are in one glTF file;
+// their places in one room are kept.
 class AnimationFiles {
  public:
   // `fps` [1/s] (> 0) of the recording.
@@ -26,11 +27,12 @@ class AnimationFiles {
     BoneLengths lengths;  // at the end
     MotionTrackBuilder motion;
   };
-  [[nodiscard]] std::filesystem::path bvhOf(const Person& person) const;
+  [[nodiscard]] std::filesystem::path bvhOf(int number) const;
   void writeBvh(const std::filesystem::path& path, const MotionTrack& track) const;
 
   std::filesystem::path bvh_;
   std::filesystem::path gltf_;
+  bool floor_origin_;
   bool bvh_rigid_;
   double bvh_scale_;
   double fps_;

@@ -27,6 +27,13 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_flag("--bvh-rigid", o.bvh_rigid,
                    "Bones of one length in the BVH; otherwise, without --actor, they follow the size as it is found");
   command.add_option("--gltf", o.gltf, "Skeleton, body surface and motion, binary glTF")->type_name("M.glb");
+  command
+      .add_option(
+          "--origin", o.origin,
+          "Origin of BVH and glTF: floor, below the hips of the first frame, so that feet stand on y = 0; or the "
+          "camera")
+      ->check(CLI::IsMember({"floor", "camera"}))
+      ->capture_default_str();
   command.add_option("--vmc", o.vmc, "Streams the motion by the VMC protocol (VSeeFace, Unity, Unreal)")
       ->type_name("HOST:PORT");
   command.add_option("--smooth", o.smooth, "Calms all outputs (One-Euro filter): 0 = off, 1 = most")

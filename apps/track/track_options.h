@@ -22,8 +22,9 @@ struct TrackOptions {
   std::filesystem::path joints;
   std::filesystem::path pose;
   std::filesystem::path bvh;
-  bool bvh_rigid = false;      // bones of one length in the BVH, also where the body's size was still being found
-  std::string bvh_unit = "m";  // or "cm"
+  std::string origin = "floor";  // of BVH and glTF, or "camera"
+  bool bvh_rigid = false;        // bones of one length in the BVH, also where the body's size was still being found
+  std::string bvh_unit = "m";    // or "cm"
   std::filesystem::path gltf;
   std::string vmc;  // HOST:PORT
   ViewOptions view;

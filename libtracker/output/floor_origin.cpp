@@ -6,13 +6,16 @@
 
 namespace depthmocap {
 
-const Eigen::Vector3d& FloorOrigin::update(const Skeleton& skeleton, const Pose& q, double time_s) {
+double lowerSole(const Skeleton& skeleton, const Pose& q) {
   ForwardKinematics fk;
   fk.update(skeleton, q);
-  const double ankle_y = std::min(fk.origin(Bone::LeftFoot).y(), fk.origin(Bone::RightFoot).y());
+  return std::min(fk.origin(Bone::LeftFoot).y(), fk.origin(Bone::RightFoot).y()) - ankleHeight(skeleton.lengths);
+}
+
+const Eigen::Vector3d& FloorOrigin::update(const Skeleton& skeleton, const Pose& q, double time_s) {
   if (!started_) origin_ = {q[kRootTx], 0, q[kRootTz]};
   started_ = true;
-  origin_.y() = height_.follow(ankle_y - ankleHeight(skeleton.lengths), time_s);
+  origin_.y() = height_.follow(lowerSole(skeleton, q), time_s);
   return origin_;
 }
 

@@ -6,6 +6,9 @@
 
 namespace depthmocap {
 
+// World y [m] of the lower sole.
+double lowerSole(const Skeleton& skeleton, const Pose& q);
+
 // A place on the floor for programs that expect the actor to stand at y = 0 near the origin: below where the hips were
 // first seen, at the height of the lower sole (see FloorHeight).
 class FloorOrigin {

@@ -130,7 +130,7 @@ class Document {
   }
 
   std::string bytes() {
-    document_["scenes"] = listOf({{"nodes", armatures_}});
+    document_["scenes"] = listOf({{"nodes", roots_}});
     document_["nodes"] = nodes_;
     document_["skins"] = skins_;
     document_["meshes"] = meshes_;
@@ -153,6 +153,7 @@ class Document {
     std::size_t first;  // index of the first node in the document
   };
 
+  // A skinned mesh is placed by its joints alone, so it stands beside the armature at the root of the scene.
   void addNodes(const Rig& rig, int number) {
     for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
       const RigNode& node = rig.nodes[n];
@@ -164,10 +165,10 @@ class Document {
       if (!children.empty()) entry["children"] = children;
       nodes_.push_back(entry);
     }
-    const std::size_t mesh_node = nodes_.size();
+    roots_.push_back(nodes_.size());
+    nodes_.push_back({{"name", named("Armature", number)}, {"children", listOf(rig.first)}});
+    roots_.push_back(nodes_.size());
     nodes_.push_back({{"name", named("Body", number)}, {"mesh", meshes_.size()}, {"skin", skins_.size()}});
-    armatures_.push_back(nodes_.size());
-    nodes_.push_back({{"name", named("Armature", number)}, {"children", {rig.first, mesh_node}}});
   }
 
   void addSkin(const Rig& rig) {
@@ -286,7 +287,7 @@ class Document {
   Buffer buffer_;
   json document_;
   json nodes_ = json::array();
-  json armatures_ = json::array();
+  json roots_ = json::array();
   json skins_ = json::array();
   json meshes_ = json::array();
   json samplers_ = json::array();

@@ -10,7 +10,7 @@ namespace depthmocap {
 
 // A binary glTF 2.0 file: the skeleton with the joint names of BvhWriter and `HeadTop_End`, the body as a skinned mesh,
 // and the motion as one animation with the frames' own times, from the first frame on. Metres, y up, facing +z; the
-// rest pose is the T-pose with its feet on y = 0, the motion is in the world of the poses. While the size is still
+// rest pose is the T-pose with its feet on y = 0, the motion is in the world of the track. While the size is still
 // being found, a scale of the hips says so. Twist: `RightArmUntwisted` and its like carry the skin of a limb's root.
 // A track without frames gives a body without animation. The same input gives the same bytes.
 std::string gltfBytes(const BodySurface& body, const MotionTrack& track);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libtracker/core/check.h"
+#include "libtracker/output/floor_origin.h"
 
 namespace depthmocap {
 
@@ -15,6 +16,23 @@ bool MotionTrack::sizeChanges() const {
 double MotionTrack::frameTime_s(double fallback_fps) const {
   if (frames.size() < 2) return 1.0 / fallback_fps;
   return (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
+}
+
+void moveToFloor(std::vector<MotionTrack>& tracks) {
+  if (tracks.empty() || tracks.front().frames.empty()) return;
+  std::vector<double> soles_y;
+  for (const MotionTrack& track : tracks) {
+    for (const MotionTrack::Frame& frame : track.frames) {
+      soles_y.push_back(lowerSole(makeSkeleton(track.lengths.scaled(frame.scale)), frame.q));
+    }
+  }
+  const auto median = soles_y.begin() + static_cast<std::ptrdiff_t>(soles_y.size() / 2);
+  std::nth_element(soles_y.begin(), median, soles_y.end());
+  const Pose& first = tracks.front().frames.front().q;
+  const Eigen::Vector3d origin(first[kRootTx], *median, first[kRootTz]);
+  for (MotionTrack& track : tracks) {
+    for (MotionTrack::Frame& frame : track.frames) frame.q.head<3>() -= origin;
+  }
 }
 
 void MotionTrackBuilder::add(double time_s, const Pose& q, const BoneLengths& lengths) {
