@@ -265,6 +265,12 @@ void addSecondPersonOptions(CLI::App& command, SynthesizeOptions& o) {
       ->capture_default_str();
 }
 
+// Ends the command line there and then, as --help does: --motion and --out are not needed.
+void listMotions() {
+  for (const std::string& name : proceduralMotionNames()) std::cout << kProcedural << name << '\n';
+  throw CLI::Success();
+}
+
 }  // namespace
 
 void addSynthesizeCommand(CLI::App& app) {
@@ -274,6 +280,7 @@ void addSynthesizeCommand(CLI::App& app) {
   command->add_option("--motion", o.motion, "AMC or BVH file, or procedural:NAME for one of the program's own")
       ->type_name("FILE")
       ->required();
+  command->add_flag_callback("--list-motions", listMotions, "Prints the program's own motions, one a line");
   command->add_option("--asf", o.asf, "Skeleton of an AMC file (default: <subject>.asf beside it)");
   command->add_option("--out", o.out, "Folder to write")->type_name("REC")->required();
   addBodyOptions(*command, o);

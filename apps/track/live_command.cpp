@@ -135,6 +135,11 @@ void live(const LiveOptions& options) {
   checkTrackOptions(check, options.track);
   check.writesFolder("--record", options.record);
   LiveRun run(options);
+  if (asksForNothing(options.track) && options.record.empty()) {
+    std::cerr
+        << "no output was asked for: nothing is written (--view shows the tracking, --joints, --bvh and others write "
+           "it: see depthmocap live --help)\n";
+  }
   const StopRequest on_ctrl_c;
   const SensorClock::time_point start = SensorClock::now();
   run.session->run([] { return StopRequest::made(); });

@@ -48,6 +48,16 @@ class Pace : public FrameSink {
   double first_s_ = 0;
 };
 
+// Where the joints go if no output was asked for: into the folder of work, named like the recording.
+fs::path jointsBeside(const fs::path& recording) {
+  const fs::path plain = fs::absolute(recording).lexically_normal();
+  const fs::path named = plain.has_filename() ? plain : plain.parent_path();
+  fs::path joints = named.stem().string() + ".joints.csv";
+  std::cerr << "no output was asked for: writing the joints to " << joints.string()
+            << " (also --bvh, --gltf, --preview, --view: see depthmocap replay --help)\n";
+  return joints;
+}
+
 // Until Ctrl-C.
 void stayForView(ReplayView& view) {
   view.tracked();
@@ -112,7 +122,10 @@ void addReplayCommand(CLI::App& app) {
       "The same recording gives the same files, byte for byte, for any number of threads.\n"
       "Example:\n"
       "  depthmocap replay recordings/walk --bvh walk.bvh --joints joints.csv --preview walk.mp4");
-  command->callback([options] { replay(*options); });
+  command->callback([options] {
+    if (asksForNothing(options->track)) options->track.joints = jointsBeside(options->recording);
+    replay(*options);
+  });
 }
 
 }  // namespace depthmocap

@@ -1,6 +1,9 @@
 #include "apps/track/source_options.h"
 
 #include <CLI/CLI.hpp>
+#include <iostream>
+
+#include <fmt/format.h>
 
 #include "libtracker/sensor/driver_table.h"
 
@@ -19,6 +22,14 @@ void addDriverOption(CLI::App& command, const DriverOption& option, SourceOption
         SourceOptions unused;
         return set(text, unused);
       });
+}
+
+// A focal length that is 1.4 times too long makes people 1.4 times too small.
+std::string guessText(const CameraModel& camera) {
+  return fmt::format(
+      "depthmocap: warning: the camera does not tell its intrinsics; taken are those usual for {}x{} pictures (focal "
+      "length {:.0f} px), and sizes are as wrong as that is; --camera C.json gives its own (docs/guide/cameras.md)\n",
+      camera.width, camera.height, camera.fx);
 }
 
 }  // namespace
@@ -46,7 +57,11 @@ std::unique_ptr<DepthSource> openChosenSource(const SourceChoice& choice) {
   options.camera = correction.camera;
   options.depth_unit_m = correction.depth_unit_m;
   options.turn_deg = correction.turn_deg;
-  return openSource(choice.source, options);
+  std::unique_ptr<DepthSource> source = openSource(choice.source, options);
+  if (!options.camera && cameraDrivers().guessesIntrinsics(choice.source)) {
+    std::cerr << guessText(source->info().camera);
+  }
+  return source;
 }
 
 }  // namespace depthmocap

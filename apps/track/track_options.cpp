@@ -7,6 +7,20 @@
 #include "libtracker/tracker/leave_out.h"
 
 namespace depthmocap {
+namespace {
+
+// Headings of --help; the first is CLI11's own for options of no other.
+constexpr const char* kEveryday = "Options";
+constexpr const char* kOutputs = "Outputs";
+constexpr const char* kResearch = "Parts and parameters of the tracker, for research";
+
+}  // namespace
+
+bool asksForNothing(const TrackOptions& o) {
+  const bool any_file = !(o.joints.empty() && o.pose.empty() && o.bvh.empty() && o.gltf.empty() && o.labels.empty() &&
+                          o.preview.empty() && o.contact_sheet.empty() && o.stats.empty() && o.save_config.empty());
+  return !any_file && o.vmc.empty() && !o.view.on;
+}
 
 void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_option("--people", o.people, "Most people that are tracked at the same time")
@@ -18,6 +32,7 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
                   "Calibrated body (see calibrate); otherwise the size is fitted while tracking; of several people the "
                   "first one")
       ->type_name("A.json");
+  command.option_defaults()->group(kOutputs);
   command.add_option("--joints", o.joints, "Joint centres in the camera frame, CSV")->type_name("J.csv");
   command.add_option("--pose", o.pose, "The 36 degrees of freedom per frame, CSV")->type_name("Q.csv");
   command.add_option("--bvh", o.bvh, "Motion for animation programs, BVH, y up")->type_name("M.bvh");
@@ -36,16 +51,20 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
       ->capture_default_str();
   command.add_option("--vmc", o.vmc, "Streams the motion by the VMC protocol (VSeeFace, Unity, Unreal)")
       ->type_name("HOST:PORT");
+  command.option_defaults()->group(kEveryday);
   command.add_option("--smooth", o.smooth, "Calms all outputs (One-Euro filter): 0 = off, 1 = most")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  command.option_defaults()->group(kOutputs);
   command.add_option("--labels", o.labels, "Folder for one body-part label image per frame, PNG")->type_name("DIR");
   command.add_option("--preview", o.preview, "Film of the tracking beside a view from the side, MP4")
       ->type_name("V.mp4");
   command.add_option("--contact-sheet", o.contact_sheet, "Up to 12 preview pictures of the run on one sheet, PNG")
       ->type_name("SHEET.png");
   command.add_option("--stats", o.stats, "Counts and times of each stage, JSON")->type_name("S.json");
+  command.option_defaults()->group("Page in a browser");
   addViewOptions(command, o.view);
+  command.option_defaults()->group(kResearch);
   command.add_option("--forest", o.forest, "Body-part classifier (default: the one that comes with the build)");
   command.add_option("--posedb", o.posedb, "Pose database (default: the one that comes with the build)");
   command
@@ -63,6 +82,7 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_option("--config", o.config, "Parameters of the tracker, JSON (docs/reference/config.md), over --method")
       ->type_name("C.json");
   command.add_option("--save-config", o.save_config, "Write the parameters in use, JSON")->type_name("C.json");
+  command.option_defaults()->group(kEveryday);
   command.add_option("--stature", o.assumed_stature_m, "Stature to start from without --actor [m]")
       ->check(CLI::Range(1.0, 2.2));
   command.add_option("--threads", o.threads, "Threads; the results do not depend on it")

@@ -43,6 +43,9 @@ struct TrackOptions {
 
 void addTrackOptions(CLI::App& command, TrackOptions& options);
 
+// Whether a run would leave nothing behind: no file, no stream, no page.
+bool asksForNothing(const TrackOptions& options);
+
 // --look-ahead; `seconds` keeps its value unless it is given.
 // Adds what the options read and write. Error as OutputCheck.
 void checkTrackOptions(OutputCheck& check, const TrackOptions& options);

@@ -162,6 +162,16 @@ TEST_F(ReplayCommand, ReadsOtherFilesThanThoseThatComeWithIt) {
   }
 }
 
+TEST_F(ReplayCommand, WritesTheJointsWhereNothingWasAskedFor) {
+  const std::string program = std::string("'") + DEPTHMOCAP_PROGRAM + "'";
+  const std::string recording = std::filesystem::absolute(bundledRecording("walk")).string();
+  const ProgramResult result =
+      runProgram("-c \"cd " + at("") + " && " + program + " replay '" + recording + "/' --last 5\"", "/bin/sh");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("writing the joints to walk.joints.csv"), std::string::npos) << result.errors;
+  EXPECT_EQ(readJointsFile(folder_ / "walk.joints.csv").size(), 6U);
+}
+
 // A camera on its side is not found out by itself, but the last line says how to turn it.
 TEST_F(ReplayCommand, SaysHowThePicturesAreTurned) {
   const auto reader = openRecording(bundledRecording("walk"), {std::nullopt, std::nullopt, 270});

@@ -54,6 +54,12 @@ TEST_F(SynthesizeCommand, EveryCameraAndEverySceneRenders) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "bystander/truth/joints-2.csv"));
 }
 
+TEST_F(SynthesizeCommand, ListsItsMotions) {
+  const ProgramResult listed = runProgram("synthesize --list-motions");
+  EXPECT_EQ(listed.exit_code, 0) << listed.errors;
+  EXPECT_NE(listed.output.find("procedural:squat\n"), std::string::npos) << listed.output;
+}
+
 TEST_F(SynthesizeCommand, WrongUsageExitsWithTwo) {
   EXPECT_EQ(synthesize("rec", "").exit_code, 2);
   EXPECT_EQ(synthesize("rec", "--motion procedural:walk --camera kinect3").exit_code, 2);
