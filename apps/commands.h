@@ -18,6 +18,7 @@ void addIkCommand(CLI::App& app);
 void addLiveCommand(CLI::App& app);
 void addPosedbCommand(CLI::App& app);
 void addRecordCommand(CLI::App& app);
+void addRepairCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
 void addShapeSpaceCommand(CLI::App& app);
 void addServeCommand(CLI::App& app);

@@ -32,6 +32,7 @@ void addCommands(CLI::App& app) {
 #endif
   addPosedbCommand(app);
   addIkCommand(app);
+  addRepairCommand(app);
   addShapeSpaceCommand(app);
   addBodyTemplatesCommand(app);
   addConfigTableCommand(app);

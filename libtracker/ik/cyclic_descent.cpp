@@ -31,15 +31,15 @@ class Descent {
     move();
   }
   [[nodiscard]] const Pose& q() const { return q_; }
-  [[nodiscard]] double rms() const { return std::sqrt(squared_ / static_cast<double>(term_.points().size())); }
+  [[nodiscard]] double rms() const { return std::sqrt(squared_ / static_cast<double>(term_.targets().size())); }
 
  private:
   // The sum of squared distances of the targets [m^2]; leaves the kinematics there.
   double squaredAt(const Pose& pose) {
     fk_.update(skeleton_, pose);
     double sum = 0;
-    for (std::size_t i = 0; i < term_.points().size(); ++i) {
-      sum += (fk_.position(term_.points()[i]) - term_.goals()[i]).squaredNorm();
+    for (const PointTargets::Target& target : term_.targets()) {
+      sum += (fk_.position(target.point) - target.goal).squaredNorm();
     }
     return sum;
   }
@@ -59,10 +59,10 @@ class Descent {
     const Eigen::Vector3d& pivot = fk_.origin(static_cast<Bone>(bone));
     double across = 0;
     double along = 0;
-    for (std::size_t i = 0; i < term_.points().size(); ++i) {
-      if (!isMovedBy(term_.points()[i].bone, bone)) continue;
-      const Eigen::Vector3d arm = fk_.position(term_.points()[i]) - pivot;
-      const Eigen::Vector3d goal = term_.goals()[i] - pivot;
+    for (const PointTargets::Target& target : term_.targets()) {
+      if (!isMovedBy(target.point.bone, bone)) continue;
+      const Eigen::Vector3d arm = fk_.position(target.point) - pivot;
+      const Eigen::Vector3d goal = target.goal - pivot;
       across += axis.cross(arm).dot(goal);
       along += arm.dot(goal) - axis.dot(arm) * axis.dot(goal);
     }
@@ -86,8 +86,8 @@ class Descent {
   }
   void move() {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < term_.points().size(); ++i) mean += term_.goals()[i] - fk_.position(term_.points()[i]);
-    q_.head<3>() += mean / static_cast<double>(term_.points().size());
+    for (const PointTargets::Target& target : term_.targets()) mean += target.goal - fk_.position(target.point);
+    q_.head<3>() += mean / static_cast<double>(term_.targets().size());
     squared_ = squaredAt(q_);
   }
 

@@ -29,7 +29,7 @@ IkResult solveDampedLeastSquares(const Skeleton& skeleton, const JointTargets& t
   TargetTerm term(skeleton, targets);
   Eigen::VectorXd e(term.rows());
   Eigen::MatrixXd J(term.rows(), kDofCount);
-  Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> J_rows(J);
+  RowsJacobian J_rows(J);
   ClosestSoFar closest(q, term.rms(q));
   Pose now = q;
   while (closest.goesOn(kMaxIterations)) {

@@ -56,9 +56,8 @@ struct IkSolver::Impl {
     if (learned != nullptr) prior = priorOf(config.prior, *learned);
   }
 
-  [[nodiscard]] std::vector<Candidate> starts(const JointTargets& targets) const;
-  [[nodiscard]] IkResult solveLm(const JointTargets& targets) const;
-  [[nodiscard]] IkResult solveFrom(const Pose& start, const JointTargets& targets, double& energy) const;
+  [[nodiscard]] std::vector<Pose> starts(const PointTargets& targets) const;
+  [[nodiscard]] IkResult best(const std::vector<Pose>& starts, PoseTerm& measured) const;
 
   Skeleton skeleton;
   IkConfig config;
@@ -66,8 +65,8 @@ struct IkSolver::Impl {
   std::unique_ptr<const PosePrior> prior;
 };
 
-std::vector<Candidate> IkSolver::Impl::starts(const JointTargets& targets) const {
-  if (config.prior == IkPrior::None) return {{placedAtTargets(skeleton, targets, Pose::Zero()), 0}};
+std::vector<Pose> IkSolver::Impl::starts(const PointTargets& targets) const {
+  if (config.prior == IkPrior::None) return {placedAtTargets(skeleton, targets, Pose::Zero())};
   TargetTerm term(skeleton, targets);
   std::vector<Candidate> candidates;
   for (const PoseGaussian& typical : learned->mixture) {
@@ -77,35 +76,26 @@ std::vector<Candidate> IkSolver::Impl::starts(const JointTargets& targets) const
   const std::size_t count = std::min(candidates.size(), static_cast<std::size_t>(config.starts));
   std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end(),
                     [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
-  candidates.resize(count);
-  return candidates;
+  std::vector<Pose> nearest;
+  for (std::size_t i = 0; i < count; ++i) nearest.push_back(candidates[i].q);
+  return nearest;
 }
 
-IkResult IkSolver::Impl::solveFrom(const Pose& start, const JointTargets& targets, double& energy) const {
-  PoseProblem problem(skeleton, targets, prior.get(), config.weight_m);
-  Eigen::VectorXd x = start;
-  const LmSummary summary = levenbergMarquardt(problem, config.lm, x);
-  energy = summary.energy;
-  return {x, 0, summary.iterations};
-}
-
-IkResult IkSolver::Impl::solveLm(const JointTargets& targets) const {
+IkResult IkSolver::Impl::best(const std::vector<Pose>& starts, PoseTerm& measured) const {
   IkResult best;
   double least = 0;
   int iterations = 0;
-  bool is_first = true;
-  for (const Candidate& start : starts(targets)) {
-    double energy = 0;
-    const IkResult result = solveFrom(start.q, targets, energy);
-    iterations += result.iterations;
-    if (is_first || energy < least) {
-      best = result;
-      least = energy;
-    }
-    is_first = false;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    PoseProblem problem(measured, prior.get(), config.weight_m);
+    Eigen::VectorXd x = starts[i];
+    const LmSummary summary = levenbergMarquardt(problem, config.lm, x);
+    iterations += summary.iterations;
+    if (i > 0 && !(summary.energy < least)) continue;
+    best.q = x;
+    least = summary.energy;
   }
   best.iterations = iterations;
-  best.residual_m = TargetTerm(skeleton, targets).rms(best.q);
+  best.q[kRootRy] = std::remainder(best.q[kRootRy], 2.0 * std::numbers::pi);
   return best;
 }
 
@@ -122,22 +112,39 @@ IkPrior IkSolver::prior() const {
   return impl_->config.prior;
 }
 
+const PosePrior* IkSolver::posePrior() const {
+  return impl_->prior.get();
+}
+
+std::vector<PoseShape> IkSolver::typicalShapes() const {
+  if (impl_->learned == nullptr) return {PoseShape::Zero()};
+  std::vector<PoseShape> shapes;
+  for (const PoseGaussian& typical : impl_->learned->mixture) shapes.push_back(typical.mean);
+  return shapes;
+}
+
+IkResult IkSolver::solveFrom(const std::vector<Pose>& starts, PoseTerm& measured) const {
+  return impl_->best(starts, measured);
+}
+
+IkResult IkSolver::solve(const PointTargets& targets) const {
+  TargetTerm term(impl_->skeleton, targets);
+  IkResult result = impl_->best(impl_->starts(targets), term);
+  result.residual_m = term.rms(result.q);
+  return result;
+}
+
 IkResult IkSolver::solve(const JointTargets& targets) const {
-  const Pose start = placedAtTargets(impl_->skeleton, targets, Pose::Zero());
+  const PointTargets points = pointTargets(impl_->skeleton, targets);
+  if (impl_->config.method == IkMethod::Lm) return solve(points);
+  const Pose start = placedAtTargets(impl_->skeleton, points, Pose::Zero());
   IkResult result;
-  switch (impl_->config.method) {
-    case IkMethod::Lm:
-      result = impl_->solveLm(targets);
-      break;
-    case IkMethod::Jacobian:
-      result = solveDampedLeastSquares(impl_->skeleton, targets, start);
-      break;
-    case IkMethod::Ccd:
-      result = solveCyclicDescent(impl_->skeleton, targets, start);
-      break;
-    case IkMethod::Fabrik:
-      result = solveFabrik(impl_->skeleton, targets, start);
-      break;
+  if (impl_->config.method == IkMethod::Jacobian) {
+    result = solveDampedLeastSquares(impl_->skeleton, targets, start);
+  } else if (impl_->config.method == IkMethod::Ccd) {
+    result = solveCyclicDescent(impl_->skeleton, targets, start);
+  } else {
+    result = solveFabrik(impl_->skeleton, targets, start);
   }
   result.q[kRootRy] = std::remainder(result.q[kRootRy], 2.0 * std::numbers::pi);
   return result;

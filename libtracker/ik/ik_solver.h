@@ -4,6 +4,7 @@
 #include "depthmocap/ik.h"
 #include "libtracker/ik/learned_poses.h"
 #include "libtracker/ik/levenberg_marquardt.h"
+#include "libtracker/ik/target_term.h"
 #include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {
@@ -32,8 +33,17 @@ class IkSolver {
 
   [[nodiscard]] const Skeleton& skeleton() const;
   [[nodiscard]] IkPrior prior() const;
+  // nullptr for IkPrior::None.
+  [[nodiscard]] const PosePrior* posePrior() const;
+  // The means of the mixture; the zero shape alone where nothing was learned.
+  [[nodiscard]] std::vector<PoseShape> typicalShapes() const;
   // At least one target.
   [[nodiscard]] IkResult solve(const JointTargets& targets) const;
+  // Any points of the body, by IkMethod::Lm.
+  [[nodiscard]] IkResult solve(const PointTargets& targets) const;
+  // The best of the poses that IkMethod::Lm leads to from each start (at least one), for any measurement whose rows are
+  // metres. residual_m stays 0.
+  [[nodiscard]] IkResult solveFrom(const std::vector<Pose>& starts, PoseTerm& measured) const;
 
  private:
   struct Impl;

@@ -6,13 +6,13 @@ namespace depthmocap {
 
 void PoseProblem::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& E, Eigen::MatrixXd* J) {
   const Pose q = x;
-  const int rows = targets_.rows();
+  const int rows = measured_.rows();
   if (J == nullptr) {
-    targets_.evaluate(q, E.head(rows), nullptr);
+    measured_.evaluate(q, E.head(rows), nullptr);
   } else {
     J->setZero();
-    Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> target_rows(J->topRows(rows));
-    targets_.evaluate(q, E.head(rows), &target_rows);
+    RowsJacobian measured_rows(J->topRows(rows));
+    measured_.evaluate(q, E.head(rows), &measured_rows);
   }
   if (prior_ == nullptr) return;
   Eigen::MatrixXd prior_rows;

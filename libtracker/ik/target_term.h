@@ -1,37 +1,48 @@
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "depthmocap/joint_targets.h"
+#include "libtracker/ik/pose_term.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 
-// The first rows of (3.1) of MNN-IK: f_i(q) - c_i [m], three a target, in the order of kJointNames.
-class TargetTerm {
- public:
-  TargetTerm(const Skeleton& skeleton, const JointTargets& targets);  // the skeleton must outlive the term
+// Points of a body and where they should be.
+struct PointTargets {
+  struct Target {
+    BonePoint point;
+    Eigen::Vector3d goal = Eigen::Vector3d::Zero();  // [m] y up
+    double weight = 1;                               // (> 0) of the distance
+  };
+  std::vector<Target> targets;
+};
 
-  [[nodiscard]] int rows() const { return 3 * static_cast<int>(points_.size()); }
-  // r: rows(); J: rows() x kDofCount or nullptr.
-  void evaluate(const Pose& q, Eigen::Ref<Eigen::VectorXd> r, Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>* J);
-  // Root mean square distance [m] at q.
+// The joints that are given, in the order of kJointNames.
+PointTargets pointTargets(const Skeleton& skeleton, const JointTargets& targets);
+
+// weight_i (f_i(q) - c_i) [m], three rows a target.
+class TargetTerm final : public PoseTerm {
+ public:
+  TargetTerm(const Skeleton& skeleton, PointTargets targets);  // the skeleton must outlive the term
+  TargetTerm(const Skeleton& skeleton, const JointTargets& targets)
+      : TargetTerm(skeleton, pointTargets(skeleton, targets)) {}
+
+  [[nodiscard]] int rows() const override { return 3 * static_cast<int>(targets_.targets.size()); }
+  void evaluate(const Pose& q, Eigen::Ref<Eigen::VectorXd> r, RowsJacobian* J) override;
+  // Root mean square distance [m] at q, whatever the weights.
   [[nodiscard]] double rms(const Pose& q);
 
-  // The targets as points on bones, and where they should be [m].
-  [[nodiscard]] const std::vector<BonePoint>& points() const { return points_; }
-  [[nodiscard]] const std::vector<Eigen::Vector3d>& goals() const { return goals_; }
+  [[nodiscard]] const std::vector<PointTargets::Target>& targets() const { return targets_.targets; }
 
  private:
   const Skeleton& skeleton_;
-  std::vector<BonePoint> points_;
-  std::vector<Eigen::Vector3d> goals_;
+  PointTargets targets_;
   ForwardKinematics fk_;
 };
 
-// The pose `shape` (its place and heading do not count) turned about the vertical and moved so that its joints lie
-// nearest to the targets, by least squares.
-Pose placedAtTargets(const Skeleton& skeleton, const JointTargets& targets, const Pose& shape);
+// The pose `shape` (its place and heading do not count) turned about the vertical and moved so that its points lie
+// nearest to the targets, by weighted least squares. At least one target.
+Pose placedAtTargets(const Skeleton& skeleton, const PointTargets& targets, const Pose& shape);
 
 }  // namespace depthmocap

@@ -210,6 +210,8 @@ class Fitter {
     distance = (fit_.joints(q) - fit_.targets.joints).colwise().norm();
     return q;
   }
+  // The joints that the last pose was fitted to [m].
+  [[nodiscard]] const JointPositions& targets() const { return fit_.targets.joints; }
 
  private:
   static constexpr double kDoubtfulCost = 8e-4;  // [m^2] some joint or axis is off by centimetres
@@ -249,6 +251,7 @@ RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, cons
   for (const MotionFrame& frame : motion.frames) {
     globalFrame(motion.bones, frame, global);
     result.clip.poses.push_back(fitter.next(global, distance));
+    result.source_joints.push_back(fitter.targets());
     for (int j = 0; j < kJointCount; ++j) {
       const auto i = static_cast<std::size_t>(j);
       result.residuals.mean_m[i] += distance[j] / static_cast<double>(motion.frames.size());

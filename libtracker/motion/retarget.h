@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <string>
+#include <vector>
 
 #include "depthmocap/joints.h"
 #include "libtracker/motion/source_motion.h"
@@ -17,6 +18,7 @@ struct RetargetResiduals {
 
 struct RetargetResult {
   MotionClip clip;
+  std::vector<JointPositions> source_joints;  // [m] of each frame, in the clip's world: the source's, not the fit's
   RetargetResiduals residuals;
 };
 

@@ -14,6 +14,12 @@ namespace depthmocap {
 struct DEPTHMOCAP_API JointTargets {
   JointPositions p_world = JointPositions::Zero();  // [m] y up; the columns of the joints that are given
   std::array<bool, kJointCount> given{};
+  // (> 0) of each joint's distance, for IkMethod::Lm: 1, or less where a joint may stay off its target.
+  std::array<double, kJointCount> weight = [] {
+    std::array<double, kJointCount> ones{};
+    ones.fill(1.0);
+    return ones;
+  }();
 
   [[nodiscard]] bool has(Joint joint) const { return given[static_cast<std::size_t>(joint)]; }
   [[nodiscard]] int count() const;

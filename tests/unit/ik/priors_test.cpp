@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "libtracker/ik/pose_problem.h"
+#include "libtracker/ik/target_term.h"
 #include "libtracker/skeleton/joint_limits.h"
 #include "tests/gradient_check.h"
 #include "tests/unit/ik/some_learned_poses.h"
@@ -50,28 +51,32 @@ class Priors : public testing::Test {
 };
 
 TEST_F(Priors, GradientOfTheTargets) {
-  PoseProblem problem(skeleton_, targets_);
+  TargetTerm term(skeleton_, targets_);
+  PoseProblem problem(term);
   expectGradient(problem, q_, 1e-6, 1e-5);
 }
 
 TEST_F(Priors, GradientOfPpcaAndMixture) {
   for (const auto& components : {std::vector{learned_.ppca}, learned_.mixture}) {
     const GaussianPrior prior(components);
-    PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+    TargetTerm term(skeleton_, targets_);
+    PoseProblem problem(term, &prior, 0.7);
     expectGradient(problem, q_, 1e-6, 1e-5);
   }
 }
 
 TEST_F(Priors, GradientOfTheAutoencoder) {
   const AutoencoderPrior prior(learned_.scale, learned_.autoencoder);
-  PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+  TargetTerm term(skeleton_, targets_);
+  PoseProblem problem(term, &prior, 0.7);
   expectGradient(problem, q_, kTolerance, kStep);
 }
 
 TEST_F(Priors, GradientOfTheVariationalAutoencoder) {
   const VariationalPrior prior(learned_.scale, learned_.variational, 0.4);
   ASSERT_EQ(prior.rows(), kShapeDofCount + 5);
-  PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+  TargetTerm term(skeleton_, targets_);
+  PoseProblem problem(term, &prior, 0.7);
   expectGradient(problem, q_, kTolerance, kStep);
 }
 
@@ -102,7 +107,8 @@ TEST_F(Priors, MixtureTakesTheMoreProbableGaussian) {
 
 TEST_F(Priors, PlaceAndHeadingHaveNoPrior) {
   const GaussianPrior prior({learned_.ppca});
-  PoseProblem problem(skeleton_, targets_, &prior, 0.7);
+  TargetTerm term(skeleton_, targets_);
+  PoseProblem problem(term, &prior, 0.7);
   Eigen::VectorXd E(problem.residuals());
   Eigen::MatrixXd J(problem.residuals(), kDofCount);
   problem.evaluate(q_, E, &J);
