@@ -1,9 +1,11 @@
 #include "apps/ik/evaluate.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +22,8 @@ namespace {
 constexpr std::array<int, 4> kJoints = {6, 8, 10, 15};  // those of the paper
 constexpr std::array<double, 2> kNoise_m = {0.010, 0.030};
 constexpr int kNoisyJoints = 15;
+constexpr std::array<int, 5> kYaws_deg = {0, 45, 90, 135, 180};
+constexpr int kPicturePoses = 200;  // at most: a picture is solved from twelve starts
 
 struct EvaluateOptions : IkCommandOptions {
   std::filesystem::path database;
@@ -35,7 +39,8 @@ class Tables {
         database_(loadPoseDatabase(o.database)),
         skeleton_(ikSkeleton(o)),
         learned_(ikLearnedPoses(o)),
-        progress_("measurements", kIkPriorCount * (kJoints.size() + kNoise_m.size()) + 3 * kJoints.size()) {
+        progress_("measurements",
+                  kIkPriorCount * (kJoints.size() + kNoise_m.size()) + 3 * kJoints.size() + 3 * kYaws_deg.size()) {
     if (database_.size() == 0) throw Error("holds no pose", o.database.string());
   }
 
@@ -53,6 +58,7 @@ class Tables {
       row(kIkMethodNames[static_cast<std::size_t>(method)], config);
     }
     noise();
+    pictures();
   }
   void draw() const {
     IkExperimentConfig config = o_.experiment;
@@ -118,6 +124,31 @@ class Tables {
         line += fmt::format(" {:.1f} mm, {:.1f}° |", 1000.0 * f.position_m, f.rotation_deg);
       }
       fmt::print("{}\n", line);
+    }
+  }
+  void pictures() {
+    IkExperimentConfig config = o_.experiment;
+    config.poses = std::min(config.poses, kPicturePoses);
+    const std::vector<IkTask> tasks = ikTasks(database_, skeleton_, config);
+    fmt::print(
+        "\nFrom pictures in scaled orthographic projection, all 18 joints given, of {} poses that face so many degrees "
+        "away from the viewer:\n\n| prior |",
+        config.poses);
+    for (const int yaw_deg : kYaws_deg) fmt::print(" {}° |", yaw_deg);
+    fmt::print(" a solve [ms] |\n|---|");
+    for (std::size_t i = 0; i < kYaws_deg.size() + 1; ++i) fmt::print("---|");
+    fmt::print("\n");
+    for (const IkPrior prior : {IkPrior::None, IkPrior::Ppca, IkPrior::Gmm}) {
+      const IkSolver solver(skeleton_, configOf(prior), learned_);
+      std::string line = fmt::format("| {} |", priorName(static_cast<int>(prior)));
+      double ms = 0;
+      for (const int yaw_deg : kYaws_deg) {
+        const IkFigures f = measureImageIk(solver, tasks, yaw_deg * std::numbers::pi / 180.0, o_.threads);
+        line += fmt::format(" {:.1f} mm, {:.1f}° |", 1000.0 * f.position_m, f.rotation_deg);
+        ms += f.solve_ms / static_cast<double>(kYaws_deg.size());
+        progress_.update(++done_);
+      }
+      fmt::print("{} {:.1f} |\n", line, ms);
     }
   }
 

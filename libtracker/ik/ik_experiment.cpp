@@ -9,6 +9,7 @@
 #include "libtracker/core/check.h"
 #include "libtracker/core/parallel.h"
 #include "libtracker/core/random.h"
+#include "libtracker/ik/image_ik.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
@@ -23,14 +24,42 @@ double meanRotationErrorDeg(const Pose& a, const Pose& b) {
   return sum / kBoneCount * 180.0 / std::numbers::pi;
 }
 
-IkFigures figuresOf(const IkSolver& solver, const IkTask& task) {
+template <typename Solve>
+IkFigures figuresOf(const IkSolver& solver, const Pose& q_true, const Solve& solve) {
   const auto start = std::chrono::steady_clock::now();
-  const IkResult result = solver.solve(task.targets);
+  const IkResult result = solve();
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   const JointPositions found = jointPositions(solver.skeleton(), result.q);
-  const JointPositions truth = jointPositions(solver.skeleton(), task.truth);
-  return {(found - truth).colwise().norm().mean(), meanRotationErrorDeg(result.q, task.truth), result.residual_m,
+  const JointPositions truth = jointPositions(solver.skeleton(), q_true);
+  return {(found - truth).colwise().norm().mean(), meanRotationErrorDeg(result.q, q_true), result.residual_m,
           time.count()};
+}
+
+IkFigures pictureFiguresOf(const IkSolver& solver, Pose truth, double yaw_rad) {
+  constexpr double kScale = 200.0;  // picture units in a metre; the solver does not know it
+  truth[kRootRy] = yaw_rad;
+  const JointPositions joints = jointPositions(solver.skeleton(), truth);
+  ImageTargets targets;
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    targets.targets.push_back({static_cast<Joint>(joint), kScale * joints.col(joint).head<2>(), 1.0});
+  }
+  return figuresOf(solver, truth, [&] {
+    IkResult result = solveImage(solver, {}, targets);
+    result.q[kRootTz] = truth[kRootTz];
+    return result;
+  });
+}
+
+IkFigures meanOf(const std::vector<IkFigures>& figures) {
+  IkFigures mean;
+  const auto count = static_cast<double>(figures.size());
+  for (const IkFigures& f : figures) {
+    mean.position_m += f.position_m / count;
+    mean.rotation_deg += f.rotation_deg / count;
+    mean.residual_m += f.residual_m / count;
+    mean.solve_ms += f.solve_ms / count;
+  }
+  return mean;
 }
 
 }  // namespace
@@ -58,16 +87,17 @@ std::vector<IkTask> ikTasks(const PoseDatabase& database, const Skeleton& skelet
 
 IkFigures measureIk(const IkSolver& solver, const std::vector<IkTask>& tasks, int threads) {
   std::vector<IkFigures> figures(tasks.size());
-  parallelFor(threads, tasks.size(), [&](std::size_t i) { figures[i] = figuresOf(solver, tasks[i]); });
-  IkFigures mean;
-  const auto count = static_cast<double>(tasks.size());
-  for (const IkFigures& f : figures) {
-    mean.position_m += f.position_m / count;
-    mean.rotation_deg += f.rotation_deg / count;
-    mean.residual_m += f.residual_m / count;
-    mean.solve_ms += f.solve_ms / count;
-  }
-  return mean;
+  parallelFor(threads, tasks.size(), [&](std::size_t i) {
+    figures[i] = figuresOf(solver, tasks[i].truth, [&] { return solver.solve(tasks[i].targets); });
+  });
+  return meanOf(figures);
+}
+
+IkFigures measureImageIk(const IkSolver& solver, const std::vector<IkTask>& tasks, double yaw_rad, int threads) {
+  std::vector<IkFigures> figures(tasks.size());
+  parallelFor(threads, tasks.size(),
+              [&](std::size_t i) { figures[i] = pictureFiguresOf(solver, tasks[i].truth, yaw_rad); });
+  return meanOf(figures);
 }
 
 }  // namespace depthmocap

@@ -33,4 +33,8 @@ struct IkFigures {
 
 IkFigures measureIk(const IkSolver& solver, const std::vector<IkTask>& tasks, int threads);
 
+// The same from pictures in scaled orthographic projection of bodies that face `yaw_rad` away from the viewer, all 18
+// joints given. The depth of the root, which such a picture does not have, is taken from the truth.
+IkFigures measureImageIk(const IkSolver& solver, const std::vector<IkTask>& tasks, double yaw_rad, int threads);
+
 }  // namespace depthmocap

@@ -1,6 +1,7 @@
 #include "libtracker/ik/ik_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <unordered_map>
 
@@ -17,6 +18,8 @@ namespace depthmocap {
 namespace {
 
 constexpr std::size_t kLongestId = 100;
+// What lies farther out in a picture is a mistake, and would leave the range of numbers.
+constexpr double kFarthestPixel = 1e6;
 
 std::string idOf(const CsvReader& csv) {
   const std::string_view id = csv.field(0);
@@ -34,6 +37,39 @@ std::string header() {
   return text + fmt::format(",{},residual_m\n", fmt::join(kDofNames, ","));
 }
 
+Joint jointOf(const CsvReader& csv) {
+  const auto joint = jointNamed(csv.field(1));
+  if (!joint) csv.fail(fmt::format("there is no such joint; joints are {}", fmt::join(kJointNames, " ")));
+  return *joint;
+}
+
+double weightOf(const CsvReader& csv, std::size_t column) {
+  if (column >= csv.fieldCount() || csv.field(column).empty()) return 1.0;
+  const double weight = csv.number(column);
+  if (weight < 0) csv.fail("weight must be at least 0");
+  return weight;
+}
+
+// Whether v grows upwards: joints that are high in the T-pose have larger v, over all poses.
+bool growsUp(const std::vector<PoseImageTargets>& poses) {
+  const JointPositions t_pose = jointPositions(makeSkeleton(BoneLengths{}), Pose::Zero());
+  double sum = 0;
+  for (const PoseImageTargets& pose : poses) {
+    double v_mean = 0;
+    double spread = 0;
+    for (const auto& target : pose.targets.targets) {
+      v_mean += target.uv.y() / static_cast<double>(pose.targets.targets.size());
+    }
+    double covariance = 0;
+    for (const auto& target : pose.targets.targets) {
+      covariance += (target.uv.y() - v_mean) * t_pose(1, static_cast<int>(target.joint));
+      spread += std::abs(target.uv.y() - v_mean);
+    }
+    if (spread > 0) sum += covariance / spread;  // each pose counts alike, however large it is in its picture
+  }
+  return sum >= 0;
+}
+
 }  // namespace
 
 std::vector<PoseTargets> readTargetsFile(const std::filesystem::path& path) {
@@ -43,36 +79,69 @@ std::vector<PoseTargets> readTargetsFile(const std::filesystem::path& path) {
   std::unordered_map<std::string, std::size_t> index_of;
   while (csv.next()) {
     const std::string id = idOf(csv);
-    const auto joint = jointNamed(csv.field(1));
-    if (!joint) {
-      csv.fail(fmt::format("there is no such joint; joints are {}", fmt::join(kJointNames, " ")));
-    }
+    const Joint joint = jointOf(csv);
     const auto [at, is_new] = index_of.try_emplace(id, poses.size());
     if (is_new) poses.push_back({id, {}});
-    const std::string refused = poses[at->second].targets.add(*joint, {csv.number(2), csv.number(3), csv.number(4)});
+    const std::string refused = poses[at->second].targets.add(joint, {csv.number(2), csv.number(3), csv.number(4)});
     if (!refused.empty()) csv.fail(refused);
   }
   if (poses.empty()) throw Error("holds no target", path.string(), "add rows pose_id,joint,x,y,z");
   return poses;
 }
 
-void writeSolvedPoses(const std::vector<PoseTargets>& poses, const std::vector<IkResult>& results,
-                      const Skeleton& skeleton, const std::filesystem::path& path) {
-  DMC_CHECK(poses.size() == results.size());
+std::vector<PoseImageTargets> readImageTargetsFile(const std::filesystem::path& path, Projection projection,
+                                                   VAxis v_axis) {
+  CsvReader csv(path);
+  csv.readHeader({"pose_id", "joint", "u", "v"});
+  constexpr std::size_t kWeightColumn = 4;
+  const bool has_weight = csv.fieldCount() > kWeightColumn && csv.field(kWeightColumn) == "weight";
+  std::vector<PoseImageTargets> poses;
+  std::unordered_map<std::string, std::size_t> index_of;
+  while (csv.next()) {
+    const std::string id = idOf(csv);
+    const Joint joint = jointOf(csv);
+    const auto [at, is_new] = index_of.try_emplace(id, poses.size());
+    if (is_new) poses.push_back({id, {}});
+    auto& targets = poses[at->second].targets.targets;
+    for (const auto& other : targets) {
+      if (other.joint == joint) csv.fail(fmt::format("joint '{}' is given twice for one pose", csv.field(1)));
+    }
+    const Eigen::Vector2d uv(csv.number(2), csv.number(3));
+    const double weight = has_weight ? weightOf(csv, kWeightColumn) : 1.0;
+    if (uv.cwiseAbs().maxCoeff() > kFarthestPixel) csv.fail("is no place in a picture");
+    if (weight > 0) targets.push_back({joint, uv, weight});
+  }
+  if (poses.empty()) throw Error("holds no target", path.string(), "add rows pose_id,joint,u,v");
+  for (const PoseImageTargets& pose : poses) {
+    if (pose.targets.targets.size() >= kLeastImageTargets) continue;
+    throw Error(fmt::format("pose '{}' has {} joints with a weight; a picture needs {}", pose.id,
+                            pose.targets.targets.size(), kLeastImageTargets),
+                path.string());
+  }
+  const bool is_down = v_axis == VAxis::Down || (v_axis == VAxis::Auto && !growsUp(poses));
+  if (projection == Projection::Orthographic && is_down) {
+    for (PoseImageTargets& pose : poses) {
+      for (auto& target : pose.targets.targets) target.uv.y() = -target.uv.y();
+    }
+  }
+  return poses;
+}
+
+void writeSolvedPoses(const std::vector<SolvedPose>& poses, const Skeleton& skeleton,
+                      const std::filesystem::path& path) {
   AtomicFile file(path);
   file.write(header());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const IkResult& result = results[i];
-    const JointPositions joints = jointPositions(skeleton, result.q);
+  for (const SolvedPose& pose : poses) {
+    const JointPositions joints = jointPositions(skeleton, pose.result.q);
     DMC_CHECK(joints.allFinite());
-    std::string row = fmt::format("{},{}.000000,{}", poses[i].id, i, trackStateName(TrackState::Tracking));
+    std::string row = fmt::format("{},{:.6f},{}", pose.id, pose.time_s, trackStateName(TrackState::Tracking));
     const auto out = std::back_inserter(row);
     for (int joint = 0; joint < kJointCount; ++joint) {
-      const int given = poses[i].targets.has(static_cast<Joint>(joint)) ? 1 : 0;
+      const int given = pose.given[static_cast<std::size_t>(joint)] ? 1 : 0;
       fmt::format_to(out, ",{:.6f},{:.6f},{:.6f},{}.000", joints(0, joint), joints(1, joint), joints(2, joint), given);
     }
-    for (const double value : result.q) fmt::format_to(out, ",{:.6f}", value);
-    fmt::format_to(out, ",{:.6f}\n", result.residual_m);
+    for (const double value : pose.result.q) fmt::format_to(out, ",{:.6f}", value);
+    fmt::format_to(out, ",{:.6f}\n", pose.result.residual_m);
     file.write(row);
   }
   file.commit();

@@ -57,7 +57,7 @@ struct IkSolver::Impl {
   }
 
   [[nodiscard]] std::vector<Pose> starts(const PointTargets& targets) const;
-  [[nodiscard]] IkResult best(const std::vector<Pose>& starts, PoseTerm& measured) const;
+  [[nodiscard]] IkSolution best(const std::vector<Pose>& starts, PoseTerm& measured) const;
 
   Skeleton skeleton;
   IkConfig config;
@@ -81,21 +81,20 @@ std::vector<Pose> IkSolver::Impl::starts(const PointTargets& targets) const {
   return nearest;
 }
 
-IkResult IkSolver::Impl::best(const std::vector<Pose>& starts, PoseTerm& measured) const {
-  IkResult best;
-  double least = 0;
+IkSolution IkSolver::Impl::best(const std::vector<Pose>& starts, PoseTerm& measured) const {
+  IkSolution best;
   int iterations = 0;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     PoseProblem problem(measured, prior.get(), config.weight_m);
     Eigen::VectorXd x = starts[i];
     const LmSummary summary = levenbergMarquardt(problem, config.lm, x);
     iterations += summary.iterations;
-    if (i > 0 && !(summary.energy < least)) continue;
-    best.q = x;
-    least = summary.energy;
+    if (i > 0 && !(summary.energy < best.energy)) continue;
+    best.result.q = x;
+    best.energy = summary.energy;
   }
-  best.iterations = iterations;
-  best.q[kRootRy] = std::remainder(best.q[kRootRy], 2.0 * std::numbers::pi);
+  best.result.iterations = iterations;
+  best.result.q[kRootRy] = std::remainder(best.result.q[kRootRy], 2.0 * std::numbers::pi);
   return best;
 }
 
@@ -112,6 +111,10 @@ IkPrior IkSolver::prior() const {
   return impl_->config.prior;
 }
 
+double IkSolver::weight_m() const {
+  return impl_->config.weight_m;
+}
+
 const PosePrior* IkSolver::posePrior() const {
   return impl_->prior.get();
 }
@@ -123,13 +126,13 @@ std::vector<PoseShape> IkSolver::typicalShapes() const {
   return shapes;
 }
 
-IkResult IkSolver::solveFrom(const std::vector<Pose>& starts, PoseTerm& measured) const {
+IkSolution IkSolver::solveFrom(const std::vector<Pose>& starts, PoseTerm& measured) const {
   return impl_->best(starts, measured);
 }
 
 IkResult IkSolver::solve(const PointTargets& targets) const {
   TargetTerm term(impl_->skeleton, targets);
-  IkResult result = impl_->best(impl_->starts(targets), term);
+  IkResult result = impl_->best(impl_->starts(targets), term).result;
   result.residual_m = term.rms(result.q);
   return result;
 }

@@ -20,6 +20,12 @@ struct IkConfig {
   void validate() const;  // throws Error naming field, value and rule
 };
 
+// A pose and how well it does.
+struct IkSolution {
+  IkResult result;    // residual_m is 0
+  double energy = 0;  // [m^2] 1/2 |E|^2 of (3.1)
+};
+
 // Finds the pose of a body whose joints lie at the targets: (3.1) of MNN-IK. Joint limits hold; where targets are out
 // of reach it is the nearest pose that is found. Without a prior a solve starts from the zero pose, as in the paper,
 // turned and moved to the targets; with one, from the means of the mixture that lie nearest to the targets. Constant
@@ -33,6 +39,7 @@ class IkSolver {
 
   [[nodiscard]] const Skeleton& skeleton() const;
   [[nodiscard]] IkPrior prior() const;
+  [[nodiscard]] double weight_m() const;
   // nullptr for IkPrior::None.
   [[nodiscard]] const PosePrior* posePrior() const;
   // The means of the mixture; the zero shape alone where nothing was learned.
@@ -42,8 +49,8 @@ class IkSolver {
   // Any points of the body, by IkMethod::Lm.
   [[nodiscard]] IkResult solve(const PointTargets& targets) const;
   // The best of the poses that IkMethod::Lm leads to from each start (at least one), for any measurement whose rows are
-  // metres. residual_m stays 0.
-  [[nodiscard]] IkResult solveFrom(const std::vector<Pose>& starts, PoseTerm& measured) const;
+  // metres.
+  [[nodiscard]] IkSolution solveFrom(const std::vector<Pose>& starts, PoseTerm& measured) const;
 
  private:
   struct Impl;

@@ -51,7 +51,11 @@ TEST(SolvedPoses, HaveTheJointsTheDofsAndTheResidual) {
   results[1].q[kRootTy] = 0.9;
   results[1].q[kLradiusRy] = -0.5;
   results[1].residual_m = 0.25;
-  writeSolvedPoses(poses, results, skeleton, folder / "p.csv");
+  std::vector<SolvedPose> solved;
+  for (std::size_t i = 0; i < 2; ++i) {
+    solved.push_back({poses[i].id, poses[i].targets.given, results[i], static_cast<double>(i)});
+  }
+  writeSolvedPoses(solved, skeleton, folder / "p.csv");
   CsvReader csv(folder / "p.csv");
   std::vector<std::string> columns = {"pose_id", "time_s", "state"};
   for (const auto joint : kJointNames) {

@@ -5,7 +5,7 @@
 #include "libtracker/ik/pose_problem.h"
 #include "libtracker/ik/target_term.h"
 #include "libtracker/skeleton/joint_limits.h"
-#include "tests/gradient_check.h"
+#include "tests/unit/ik/problem_gradient.h"
 #include "tests/unit/ik/some_learned_poses.h"
 
 namespace depthmocap {
@@ -14,23 +14,6 @@ namespace {
 // Networks work in single precision, so differences need a larger step.
 constexpr double kStep = 1e-2;
 constexpr double kTolerance = 3e-3;
-
-template <typename Problem>
-void expectGradient(Problem& problem, const Eigen::VectorXd& x, double tolerance, double step) {
-  const auto residual = [&](const Eigen::VectorXd& at) {
-    Eigen::VectorXd E(problem.residuals());
-    problem.evaluate(at, E, nullptr);
-    return E;
-  };
-  const auto jacobian = [&](const Eigen::VectorXd& at) {
-    Eigen::VectorXd E(problem.residuals());
-    Eigen::MatrixXd J(problem.residuals(), problem.parameters());
-    J.setConstant(std::nan(""));
-    problem.evaluate(at, E, &J);
-    return J;
-  };
-  expectJacobianMatches(x, residual, jacobian, tolerance, step);
-}
 
 class Priors : public testing::Test {
  protected:
