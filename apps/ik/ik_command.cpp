@@ -83,6 +83,7 @@ std::vector<SolvedPose> solvePictures(const SolveOptions& o, const IkSolver& sol
   for (std::size_t i = 0; i < poses.size(); ++i) time_s[i] = static_cast<double>(i) / (o.fps > 0 ? o.fps : 1.0);
   if (o.fps > 0) {
     std::vector<ImageTargets> targets;
+    targets.reserve(poses.size());
     for (const PoseImageTargets& pose : poses) targets.push_back(pose.targets);
     SequenceConfig config;
     config.threads = o.threads;

@@ -130,6 +130,13 @@ IkSolution IkSolver::solveFrom(const std::vector<Pose>& starts, PoseTerm& measur
   return impl_->best(starts, measured);
 }
 
+IkResult IkSolver::solve(const JointTargets& targets, const Pose& start) const {
+  TargetTerm term(impl_->skeleton, targets);
+  IkResult result = impl_->best({start}, term).result;
+  result.residual_m = term.rms(result.q);
+  return result;
+}
+
 IkResult IkSolver::solve(const PointTargets& targets) const {
   TargetTerm term(impl_->skeleton, targets);
   IkResult result = impl_->best(impl_->starts(targets), term).result;

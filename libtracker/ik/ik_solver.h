@@ -46,6 +46,8 @@ class IkSolver {
   [[nodiscard]] std::vector<PoseShape> typicalShapes() const;
   // At least one target.
   [[nodiscard]] IkResult solve(const JointTargets& targets) const;
+  // The same by IkMethod::Lm from this pose alone: what lies near it, and in less time.
+  [[nodiscard]] IkResult solve(const JointTargets& targets, const Pose& start) const;
   // Any points of the body, by IkMethod::Lm.
   [[nodiscard]] IkResult solve(const PointTargets& targets) const;
   // The best of the poses that IkMethod::Lm leads to from each start (at least one), for any measurement whose rows are

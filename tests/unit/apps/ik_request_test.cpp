@@ -49,11 +49,45 @@ TEST(IkRequests, TakesEachPriorAndSolver) {
   }
 }
 
+TEST(IkRequests, GoesOnFromAPoseAndHoldsJoints) {
+  const json first = json::parse(requests().answer(withTargets("")));
+  ASSERT_EQ(first["pose"].size(), 36U);
+  // Dragged by 2 cm while the ankles stay.
+  const json dragged = {{"targets", {{"left_wrist", {0.42, 1.2, 0.3}}}},
+                        {"start", first["pose"]},
+                        {"hold", {"left_ankle", "right_ankle", "head"}}};
+  const json answer = json::parse(requests().answer(dragged.dump()));
+  EXPECT_LT(answer["residual_m"].get<double>(), 0.01);
+  for (const char* joint : {"left_ankle", "right_ankle", "right_wrist"}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(answer["joints"][joint][axis].get<double>(), first["joints"][joint][axis].get<double>(), 0.02);
+    }
+  }
+}
+
+TEST(IkRequests, AHeavyJointComesNearerThanALightOne) {
+  // Farther apart than arms reach.
+  const char* const far =
+      R"({"targets": {"left_wrist": [0.9, 1.3, 0], "right_wrist": [-0.9, 1.3, 0]}, "weights": {"left_wrist": %}})";
+  const auto missedBy = [&](const char* weight) {
+    std::string request = far;
+    request.replace(request.find('%'), 1, weight);
+    const json answer = json::parse(requests().answer(request));
+    return std::abs(answer["joints"]["left_wrist"][0].get<double>() - 0.9);
+  };
+  EXPECT_LT(missedBy("10"), 0.5 * missedBy("0.1"));
+}
+
 TEST(IkRequests, SaysWhatIsWrong) {
   const std::pair<std::string, const char*> cases[] = {
       {"", "is not valid JSON"},
       {"[1]", "must hold a JSON object"},
       {"{}", "targets must be"},
+      {withTargets(R"(, "weights": {"neck": 1})"), "'neck' has a weight but no target"},
+      {withTargets(R"(, "weights": {"head": 0})"), "must be above 0"},
+      {withTargets(R"(, "weights": 3)"), "weights must be"},
+      {withTargets(R"(, "start": [1, 2])"), "36 numbers"},
+      {withTargets(R"(, "hold": ["neck"])"), "hold needs a start"},
       {R"({"targets": {}})", "targets must be"},
       {R"({"targets": {"left_hand": [0, 0, 0]}})", "no joint 'left_hand'"},
       {R"({"targets": {"head": [0, 0]}})", "must be [x, y, z]"},
