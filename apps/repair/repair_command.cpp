@@ -10,6 +10,7 @@
 
 #include "apps/commands.h"
 #include "apps/repair/evaluate.h"
+#include "apps/terminal/output_check.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/csv.h"
 #include "libtracker/core/shipped_files.h"
@@ -115,6 +116,11 @@ void repairFile(const RepairOptions& o) {
   if (o.markers.empty()) throw CLI::RequiredError("MARKERS");
   if (o.out.empty()) throw CLI::RequiredError("--out");
   const MarkerFileKind out_kind = markerFileKind(o.out);
+  OutputCheck check;
+  for (const fs::path& input : {o.markers, o.names, o.priors}) check.reads(input);
+  check.writes("--out", o.out);
+  check.writes("--poses", o.poses);
+  check.writes("--bvh", o.bvh);
   MarkerSequence markers = readMarkers(o.markers);
   if (!o.names.empty()) rename(o.names, markers);
   const auto learned = std::make_shared<const LearnedPoses>(
