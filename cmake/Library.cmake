@@ -2,7 +2,7 @@
 # Symbols with DEPTHMOCAP_API (depthmocap/export.h) are visible; docs/reference/api.md says what they promise.
 set(run_time_layers dmc_core dmc_skeleton dmc_actor dmc_recording dmc_posedb dmc_segment dmc_classify dmc_markers dmc_prior
     dmc_solve dmc_match dmc_tracker dmc_ik dmc_sensor dmc_smooth dmc_session dmc_calibration)
-set(run_time_libraries Ceres::ceres ${pcl_libraries} PkgConfig::flann ZLIB::ZLIB PNG::PNG fmt::fmt OpenMP::OpenMP_CXX
+set(run_time_libraries Ceres::ceres ${pcl_libraries} PkgConfig::flann ZLIB::ZLIB PNG::PNG fmt::fmt TBB::tbb
     Threads::Threads)
 if(DEPTHMOCAP_OPENNI2)
   list(APPEND run_time_layers dmc_openni)
@@ -62,8 +62,8 @@ set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 file(RELATIVE_PATH prefix_from_pkgconfig "/prefix/${pkgconfig_dir}" "/prefix")
 if(library_type STREQUAL STATIC)
   set(package_is_static ON)
-  set(pc_requires "eigen3 fmt libpng zlib flann pcl_features pcl_segmentation pcl_filters")
-  set(pc_libraries "-lceres -lglog -fopenmp")
+  set(pc_requires "eigen3 fmt tbb libpng zlib flann pcl_features pcl_segmentation pcl_filters")
+  set(pc_libraries "-lceres -lglog")
   if(DEPTHMOCAP_OPENNI2)
     string(APPEND pc_requires " libopenni2")
   endif()
