@@ -1,19 +1,17 @@
 #include "libtracker/classify/forest.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "libtracker/core/check.h"
 
 namespace depthmocap {
 namespace {
 
-int leafTotal(const ForestTree& tree, std::size_t leaf, std::size_t facings) {
-  int total = 0;
+bool hasProbability(const ForestTree& tree, std::size_t leaf, std::size_t facings) {
   for (std::size_t row = leaf * facings; row < (leaf + 1) * facings; ++row) {
-    total = std::accumulate(tree.leaves[row].begin(), tree.leaves[row].end(), total);
+    if (tree.leaves[row] != LeafRow{}) return true;
   }
-  return total;
+  return false;
 }
 
 void checkTree(const ForestTree& tree, std::size_t facings) {
@@ -38,7 +36,7 @@ void checkTree(const ForestTree& tree, std::size_t facings) {
   }
   DMC_CHECK(reached_count == tree.nodes.size());
   for (const LeafRow& row : tree.leaves) DMC_CHECK(row[kPartCount] == 0);
-  for (std::size_t leaf = 0; leaf < leaf_count; ++leaf) DMC_CHECK(leafTotal(tree, leaf, facings) > 0);
+  for (std::size_t leaf = 0; leaf < leaf_count; ++leaf) DMC_CHECK(hasProbability(tree, leaf, facings));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <span>
 #include <utility>
@@ -51,6 +52,24 @@ bool bitAt(const std::uint8_t* bits, std::size_t i) {
   return ((bits[i / 8] >> (i % 8)) & 1U) != 0;
 }
 
+// Calls visit(i - first) for each bit i in [first, end) that is 1, in order; zeros are skipped by whole words.
+template <typename Visit>
+void forEachSetBit(const std::uint8_t* bits, std::size_t first, std::size_t end, Visit&& visit) {
+  constexpr std::size_t kWordBits = 64;
+  std::size_t i = first;
+  for (; i < end && i % 8 != 0; ++i) {
+    if (bitAt(bits, i)) visit(i - first);
+  }
+  for (; i + kWordBits <= end; i += kWordBits) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bits + i / 8, sizeof word);
+    for (; word != 0; word &= word - 1) visit(i - first + static_cast<std::size_t>(std::countr_zero(word)));
+  }
+  for (; i < end; ++i) {
+    if (bitAt(bits, i)) visit(i - first);
+  }
+}
+
 std::vector<std::uint16_t> getColumn(Reader& reader, std::size_t count) {
   const std::uint8_t* low = reader.take(count);
   const std::uint8_t* high = reader.take(count);
@@ -90,19 +109,18 @@ std::vector<ForestNode> getSplits(Reader& reader, const std::vector<std::size_t>
 
 void getLeaves(Reader& reader, std::size_t count, std::size_t facings, ForestTree& tree) {
   tree.leaves.resize(count * facings);
-  std::vector<bool> has_probability(count, false);
+  std::vector<std::uint8_t> has_probability(count, 0);
   const std::uint8_t* bits = reader.take(bytesOfBits(count * facings * kPartCount));
-  std::size_t bit = 0;
   for (std::size_t column = 0; column < facings * kPartCount; ++column) {
-    for (std::size_t leaf = 0; leaf < count; ++leaf) {
-      if (!bitAt(bits, bit++)) continue;
+    LeafRow* const rows = tree.leaves.data() + column / kPartCount;
+    forEachSetBit(bits, column * count, (column + 1) * count, [&](std::size_t leaf) {
       const auto value = reader.get<std::uint8_t>();
       if (value == 0) reader.failDamaged("a probability of 0 among the others");
-      tree.leaves[leaf * facings + column / kPartCount][column % kPartCount] = value;
-      has_probability[leaf] = true;
-    }
+      rows[leaf * facings][column % kPartCount] = value;
+      has_probability[leaf] = 1;
+    });
   }
-  if (std::find(has_probability.begin(), has_probability.end(), false) != has_probability.end()) {
+  if (std::find(has_probability.begin(), has_probability.end(), 0) != has_probability.end()) {
     reader.failDamaged("a leaf without probability");
   }
 }
