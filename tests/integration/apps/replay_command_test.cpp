@@ -151,11 +151,11 @@ TEST_F(ReplayCommand, LooksAheadForCalmerPosesAndLeavesTheRestAsItIs) {
 
 TEST_F(ReplayCommand, ReadsOtherFilesThanThoseThatComeWithIt) {
   for (const char* option : {"--forest", "--posedb"}) {
-    const ProgramResult missing = replay("walk", std::string(option) + " " + at("none"));
+    const ProgramResult missing = replay("walk", "--joints " + at("j.csv") + " " + option + " " + at("none"));
     EXPECT_EQ(missing.exit_code, 1) << option;
     EXPECT_NE(missing.errors.find((folder_ / "none").string()), std::string::npos) << missing.errors;
     writeBytes(folder_ / "damaged", std::string(1000, 'x'));
-    const ProgramResult damaged = replay("walk", std::string(option) + " " + at("damaged"));
+    const ProgramResult damaged = replay("walk", "--joints " + at("j.csv") + " " + option + " " + at("damaged"));
     EXPECT_EQ(damaged.exit_code, 1) << option;
     EXPECT_NE(damaged.errors.find((folder_ / "damaged").string()), std::string::npos) << damaged.errors;
     EXPECT_EQ(std::count(damaged.errors.begin(), damaged.errors.end(), '\n'), 1) << damaged.errors;

@@ -82,7 +82,7 @@ TEST_P(DamagedActorFile, IsRefusedWithItsNameAndTheReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     ActorFile, DamagedActorFile,
-    testing::Values(Damage{"missing.json", "cannot be read"}, Damage{"cut_short.json", "is not valid JSON"},
+    testing::Values(Damage{"missing.json", "cannot read"}, Damage{"cut_short.json", "is not valid JSON"},
                     Damage{"other_format.json", "\"format\" must be"}, Damage{"future_version.json", "version 7"},
                     Damage{"no_lengths.json", "\"bone_lengths_m\" is missing"},
                     Damage{"no_foot.json", "\"foot\" is missing"}, Damage{"text_length.json", "must be a number"},

@@ -56,7 +56,7 @@ TEST(ShapeSpace, ReadsBackWhatWasWritten) {
 
 TEST(ShapeSpace, RefusesWhatIsNone) {
   const TemporaryFolder folder;
-  EXPECT_NE(errorOf([&] { loadShapeSpace(folder / "none.json"); }).find("cannot be read"), std::string::npos);
+  EXPECT_NE(errorOf([&] { loadShapeSpace(folder / "none.json"); }).find("cannot read"), std::string::npos);
   writeBytes(folder / "s.json", R"({"format": "depthmocap-shape-space", "version": 1, "origin": "x"})");
   EXPECT_NE(errorOf([&] { loadShapeSpace(folder / "s.json"); }).find("missing"), std::string::npos);
   saveShapeSpace(folder / "s.json", makeShapeSpace(somePeople(), 0.95, "test"));
