@@ -68,7 +68,7 @@ bool isWholeFilm(const fs::path& path) {
 }  // namespace
 
 struct PreviewWriter::Impl {
-  Impl(const fs::path& path_, const CameraModel& camera) : path(path_), pending(path_, kEnding), painter(camera) {
+  Impl(const fs::path& wanted, const CameraModel& camera) : path(wanted), pending(wanted, kEnding), painter(camera) {
     // OpenCV seeks in the film, so that it cannot be written to a pipe; a whole one can be copied there.
     if (pending.isDirect()) scratch.emplace(fs::temp_directory_path() / "depthmocap-preview", kEnding);
   }
