@@ -16,6 +16,7 @@ void addForestCommand(CLI::App& app);
 void addRoomsCommand(CLI::App& app);
 void addIkCommand(CLI::App& app);
 void addLiveCommand(CLI::App& app);
+void addMotionCommand(CLI::App& app);
 void addPosedbCommand(CLI::App& app);
 void addRecordCommand(CLI::App& app);
 void addRepairCommand(CLI::App& app);

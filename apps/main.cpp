@@ -31,6 +31,7 @@ void addCommands(CLI::App& app) {
   addRoomsCommand(app);
 #endif
   addPosedbCommand(app);
+  addMotionCommand(app);
   addIkCommand(app);
   addRepairCommand(app);
   addShapeSpaceCommand(app);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/terminal/motion_options.h"
 #include "calibration/shape_space.h"
 #include "depthmocap/error.h"
 #include "libtracker/motion/motion_files.h"
@@ -20,15 +21,16 @@ struct ShapeSpaceOptions {
   fs::path motions;
   fs::path out;
   double share = 0.99;
+  LoadOptions load;
 };
 
 // One motion a skeleton: the performer's bone lengths do not depend on which.
-std::vector<fs::path> oneMotionPerSkeleton(const fs::path& folder) {
+std::vector<fs::path> oneMotionPerSkeleton(const fs::path& folder, const LoadOptions& load) {
   std::vector<fs::path> chosen;
   fs::path last;
   for (const fs::path& motion : findMotionFiles(folder)) {
     if (motion.extension() != ".amc") continue;
-    const fs::path asf = asfFor(motion);
+    const fs::path asf = load.asf ? *load.asf : asfFor(motion);
     if (asf == last) continue;
     last = asf;
     chosen.push_back(motion);
@@ -38,7 +40,11 @@ std::vector<fs::path> oneMotionPerSkeleton(const fs::path& folder) {
 
 void build(const ShapeSpaceOptions& o) {
   std::vector<BoneLengths> measured;
-  for (const fs::path& motion : oneMotionPerSkeleton(o.motions)) measured.push_back(loadMotion(motion).lengths);
+  for (const fs::path& motion : oneMotionPerSkeleton(o.motions, o.load)) {
+    const RetargetResult result = retargetMotionFile(motion, o.load);
+    printMotionWarnings(motion, result.warnings);
+    measured.push_back(result.clip.lengths);
+  }
   if (measured.size() < 2) throw Error("fewer than two ASF skeletons with motions", o.motions.string());
   const ShapeSpace space = makeShapeSpace(
       measured, o.share,
@@ -57,6 +63,7 @@ void addShapeSpaceCommand(CLI::App& app) {
   command->add_option("--share", options->share, "Share of the variance that the components hold")
       ->check(CLI::Range(0.5, 1.0))
       ->capture_default_str();
+  addMotionOptions(*command, options->load);
   command->callback([options] { build(*options); });
 }
 

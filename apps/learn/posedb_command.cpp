@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/terminal/motion_options.h"
 #include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "depthmocap/error.h"
@@ -39,7 +40,7 @@ struct BuildOptions {
   std::vector<std::string> exclude;
   std::string mirror = "on";
   double threshold_m = PoseDatabaseConfig{}.threshold_m;
-  double amc_fps = LoadOptions{}.amc_fps;
+  LoadOptions load;
   fs::path samples;  // pose mixture to draw from; empty = none
   std::size_t sample_count = 30000;
   std::uint64_t seed = 1;
@@ -69,8 +70,6 @@ void exclude(std::vector<Item>& items, std::vector<std::string>& pending, NameOf
 
 // Reads and retargets the files on all threads. Returns why broken ones were left out.
 std::vector<std::string> readFiles(const std::vector<fs::path>& files, const BuildOptions& o, ReadMotions& read) {
-  LoadOptions load;
-  load.amc_fps = o.amc_fps;
   const std::size_t block = 4 * static_cast<std::size_t>(o.threads);
   Progress progress("motions", std::max<std::size_t>(1, files.size()));
   std::vector<std::string> warnings;
@@ -80,7 +79,7 @@ std::vector<std::string> readFiles(const std::vector<fs::path>& files, const Bui
     std::vector<std::string> failures(count);
     parallelFor(o.threads, count, [&](std::size_t i) {
       try {
-        results[i] = retargetMotionFile(files[first + i], load);
+        results[i] = retargetMotionFile(files[first + i], o.load);
       } catch (const Error& error) {
         failures[i] = error.what();
       }
@@ -90,6 +89,7 @@ std::vector<std::string> readFiles(const std::vector<fs::path>& files, const Bui
         warnings.push_back(failures[i]);
         continue;
       }
+      printMotionWarnings(files[first + i], results[i]->warnings);
       const std::size_t frames = results[i]->clip.poses.size();
       read.residual_sum += results[i]->residuals.mean() * static_cast<double>(frames);
       read.captured_frames += frames;
@@ -260,9 +260,7 @@ void addBuild(CLI::App& posedb) {
   command->add_option("--threshold", o->threshold_m, "Poses whose joints all lie nearer than this [m] are one")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--amc-fps", o->amc_fps, "Frame rate of the .amc files, which do not hold it [1/s]")
-      ->check(CLI::Range(1.0, 1000.0))
-      ->capture_default_str();
+  addMotionOptions(*command, o->load);
   command->add_option("--samples", o->samples, "Add poses drawn from this pose mixture (posedb learn)")
       ->type_name("FILE");
   command->add_option("--sample-count", o->sample_count, "Poses to draw")

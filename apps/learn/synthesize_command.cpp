@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/terminal/motion_options.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
 #include "depthmocap/error.h"
@@ -40,7 +41,7 @@ constexpr double kAverageBodyMassIndex = 23.5;  // [kg / m^2]
 
 struct SynthesizeOptions {
   std::string motion;
-  fs::path asf;
+  LoadOptions load;
   fs::path out;
   std::optional<double> height_m;
   std::optional<double> weight_kg;
@@ -66,9 +67,9 @@ struct SynthesizeOptions {
 
 MotionClip readMotion(const std::string& motion, const SynthesizeOptions& o) {
   if (motion.starts_with(kProcedural)) return proceduralMotion(motion.substr(kProcedural.size()), o.seed);
-  LoadOptions load;
-  if (!o.asf.empty()) load.asf = o.asf;
-  return loadMotion(motion, load);
+  RetargetResult result = retargetMotionFile(motion, o.load);
+  printMotionWarnings(motion, result.warnings);
+  return std::move(result.clip);
 }
 
 // Frames first..last, both included.
@@ -210,7 +211,7 @@ void addBodyOptions(CLI::App& command, SynthesizeOptions& o) {
   command.add_option("--height", o.height_m, "Stature of the actor [m] (default: 1.75, a woman 1.62)")
       ->check(CLI::Range(1.0, 2.2));
   command.add_option("--weight", o.weight_kg, "Weight of the actor [kg] (default: average for the stature)")
-      ->check(CLI::Range(30.0, 160.0));
+      ->check(CLI::Range(10.0, 160.0));
   command.add_option("--sex", o.sex, "Sex of the actor")->check(CLI::IsMember({"m", "f"}))->capture_default_str();
   command.add_option("--body", o.body, "builtin, or makehuman:DIR with MakeHuman's base mesh and targets")
       ->check([](const std::string& body) {
@@ -281,7 +282,7 @@ void addSynthesizeCommand(CLI::App& app) {
       ->type_name("FILE")
       ->required();
   command->add_flag_callback("--list-motions", listMotions, "Prints the program's own motions, one a line");
-  command->add_option("--asf", o.asf, "Skeleton of an AMC file (default: <subject>.asf beside it)");
+  addMotionOptions(*command, o.load);
   command->add_option("--out", o.out, "Folder to write")->type_name("REC")->required();
   addBodyOptions(*command, o);
   addViewOptions(*command, o);

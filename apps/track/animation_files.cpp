@@ -18,7 +18,7 @@ AnimationFiles::AnimationFiles(const TrackOptions& options, double fps)
     : bvh_(options.bvh),
       gltf_(options.gltf),
       floor_origin_(options.origin == "floor"),
-      bvh_rigid_(options.bvh_rigid),
+      bvh_moving_(options.bvh_moving),
       bvh_scale_(options.bvh_unit == "cm" ? kCentimetres : 1.0),
       fps_(fps) {}
 
@@ -67,7 +67,7 @@ std::filesystem::path AnimationFiles::bvhOf(int number) const {
 }
 
 void AnimationFiles::writeBvh(const std::filesystem::path& path, const MotionTrack& track) const {
-  const bool moving = track.sizeChanges() && !bvh_rigid_;
+  const bool moving = track.sizeChanges() && bvh_moving_;
   BvhWriter writer(path, makeSkeleton(track.lengths), 1.0 / track.frameTime_s(fps_), bvh_scale_, moving);
   for (const MotionTrack::Frame& frame : track.frames) {
     if (moving) {

@@ -33,7 +33,7 @@ class AnimationFiles {
   std::filesystem::path bvh_;
   std::filesystem::path gltf_;
   bool floor_origin_;
-  bool bvh_rigid_;
+  bool bvh_moving_;
   double bvh_scale_;
   double fps_;
   std::vector<Person> people_;

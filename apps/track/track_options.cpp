@@ -39,8 +39,8 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_option("--bvh-unit", o.bvh_unit, "Unit of length of the BVH: m or cm")
       ->check(CLI::IsMember({"m", "cm"}))
       ->capture_default_str();
-  command.add_flag("--bvh-rigid", o.bvh_rigid,
-                   "Bones of one length in the BVH; otherwise, without --actor, they follow the size as it is found");
+  command.add_flag("--bvh-moving", o.bvh_moving,
+                   "Bones of the BVH follow the size as it is found, by position channels; not for three.js");
   command.add_option("--gltf", o.gltf, "Skeleton, body surface and motion, binary glTF")->type_name("M.glb");
   command
       .add_option(

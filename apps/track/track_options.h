@@ -23,7 +23,7 @@ struct TrackOptions {
   std::filesystem::path pose;
   std::filesystem::path bvh;
   std::string origin = "floor";  // of BVH and glTF, or "camera"
-  bool bvh_rigid = false;        // bones of one length in the BVH, also where the body's size was still being found
+  bool bvh_moving = false;       // position channels for all bones of the BVH where the body's size was being found
   std::string bvh_unit = "m";    // or "cm"
   std::filesystem::path gltf;
   std::string vmc;  // HOST:PORT

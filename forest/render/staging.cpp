@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "depthmocap/error.h"
+#include "libtracker/body/pose_surface.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
@@ -40,6 +41,26 @@ double lowestSole(const Skeleton& skeleton, const Pose& q, const SoleDepth& sole
   const double ankle = std::min(height(Joint::LeftAnkle), height(Joint::RightAnkle)) - sole.below_ankle;
   const double toe = std::min(height(Joint::LeftToe), height(Joint::RightToe)) - sole.below_toe;
   return std::min(ankle, toe);
+}
+
+// Vertices of everything but the feet: these bend and roll where a rigid foot dips into the floor.
+std::vector<std::size_t> verticesAboveFeet(const BodySurface& body) {
+  constexpr double kAboveAnkle_m = 0.05;
+  const JointPositions joints = jointPositions(body.skeleton, Pose::Zero());
+  const auto ankle = static_cast<float>(joints(1, static_cast<int>(Joint::LeftAnkle)) + kAboveAnkle_m);
+  std::vector<std::size_t> above;
+  for (std::size_t v = 0; v < body.vertices.size(); ++v) {
+    if (body.vertices[v].y() > ankle) above.push_back(v);
+  }
+  return above;
+}
+
+// How far [m] the lowest of some vertices lies below a height; 0 where none does.
+double depthBelow(double floor_y, const std::vector<Eigen::Vector3f>& vertices,
+                  const std::vector<std::size_t>& chosen) {
+  auto lowest = static_cast<float>(floor_y);
+  for (const std::size_t v : chosen) lowest = std::min(lowest, vertices[v].y());
+  return floor_y - static_cast<double>(lowest);
 }
 
 // The floor under the performer: a low quantile of where the soles have been, so that single bad frames do not count.
@@ -80,10 +101,11 @@ void centrePath(std::vector<Pose>& poses) {
 std::optional<double> distanceFor(const std::vector<Pose>& poses, double share, const StagingConfig& config) {
   const double min_distance = std::min(config.min_distance_m, config.distance_m);
   const double max_distance = std::max(config.max_distance_m, config.distance_m);
+  const double half_body = std::min(kHalfBody_m, config.half_view * config.distance_m);
   double distance = config.distance_m;
   double back = 0;  // of the path behind its middle
   for (const Pose& q : poses) {
-    const double beside = (share * std::abs(q[kRootTx]) + kHalfBody_m) / config.half_view;
+    const double beside = (share * std::abs(q[kRootTx]) + half_body) / config.half_view;
     distance = std::max(distance, std::max(beside, min_distance) + share * q[kRootTz]);
     back = std::max(back, -share * q[kRootTz]);
   }
@@ -121,6 +143,8 @@ StagedMotion stageMotion(const MotionClip& clip, const BodySurface& body, const 
   for (const Pose& q : clip.poses) performer_soles.push_back(lowestSole(performer, q, sole.scaled(1.0 / ratio)));
   const double performer_floor = floorUnder(performer_soles);
 
+  const std::vector<std::size_t> above_feet = verticesAboveFeet(body);
+  std::vector<Eigen::Vector3f> vertices;
   StagedMotion staged;
   staged.floor_y = -config.camera_height_m;
   const double turn = config.yaw - clip.poses.front()[kRootRy];
@@ -131,6 +155,8 @@ StagedMotion stageMotion(const MotionClip& clip, const BodySurface& body, const 
     q[kRootRy] += turn;
     const double above_floor = ratio * (performer_soles[i] - performer_floor);
     q[kRootTy] += staged.floor_y + above_floor - lowestSole(body.skeleton, q, sole);
+    poseSurface(body, q, vertices);
+    q[kRootTy] += depthBelow(staged.floor_y, vertices, above_feet);
     staged.poses.push_back(q);
   }
   centrePath(staged.poses);

@@ -27,9 +27,11 @@ struct StagedMotion {
 
 // Puts a motion on a body and in front of the camera. Angles are kept; the path is scaled by the ratio of the leg
 // lengths and turned so that the first frame's heading is `yaw`; the middle of its extent lies on the optical axis at
-// distance_m. A path that would leave the view or the range of distances is first moved back, then shortened about its
-// middle. The lowest foot is as far above the floor as the performer's was (scaled), so that what stood still stands
-// and what jumped jumps. Throws Error where the clip is empty or a setting is out of range.
+// distance_m, also where the view is too narrow there for the whole body. A path that would leave the view or the range
+// of distances is first moved back, then shortened about its middle. The lowest foot is as far above the floor as the
+// performer's was (scaled), so that what stood still stands and what jumped jumps; where another part of the body would
+// be below the floor (a fall, a handstand), the body is lifted by as much. Throws Error where the clip is empty or a
+// setting is out of range.
 StagedMotion stageMotion(const MotionClip& clip, const BodySurface& body, const StagingConfig& config);
 
 }  // namespace depthmocap

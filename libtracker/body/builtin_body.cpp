@@ -27,7 +27,7 @@ void validate(const BodyShape& shape) {
     throw Error(fmt::format("{} is {}, outside {} .. {}", field, value, low, high), "body shape");
   };
   require("stature_m", shape.stature_m, 1.0, 2.2);
-  require("weight_kg", shape.weight_kg, 30, 160);
+  require("weight_kg", shape.weight_kg, 10, 160);
 }
 
 // The fatness whose volume is closest to the wanted one: bisection, the volume grows with the fatness.

@@ -29,9 +29,10 @@ class AmcParser {
       rest_.rotation.push_back(Eigen::Quaterniond::Identity());
       if (!skeleton.motions[b].channels.empty()) ++moving_;
     }
+    rigid_.assign(skeleton.bones.size(), false);
   }
 
-  std::vector<MotionFrame> parse() {
+  SourceMotion parse(double fps) {
     while (!text_.atEnd()) {
       text_.takeLine(words_);
       if (words_[0].starts_with(':')) {
@@ -42,9 +43,14 @@ class AmcParser {
         bone();
       }
     }
-    endFrame();
+    if (!frameIsWhole() && frames_.size() > 1) {
+      frames_.pop_back();
+      warnings_.emplace_back("the last frame is cut short and left out");
+    } else {
+      endFrame();
+    }
     if (frames_.empty()) text_.fail("there is no frame", "is this an AMC file?");
-    return std::move(frames_);
+    return {skeleton_.bones, fps, std::move(frames_), std::move(warnings_)};
   }
 
  private:
@@ -65,13 +71,25 @@ class AmcParser {
     given_count_ = 0;
   }
 
-  void endFrame() const {
-    if (frames_.empty() || given_count_ == moving_) return;
+  [[nodiscard]] bool frameIsWhole() const { return frames_.empty() || given_count_ == moving_; }
+
+  // Bones that the first frame does not have, no frame may have: they do not move.
+  void endFrame() {
+    if (frameIsWhole()) return;
     for (std::size_t b = 0; b < given_.size(); ++b) {
-      if (!given_[b] && !skeleton_.motions[b].channels.empty()) {
+      if (given_[b] || !moves(b)) continue;
+      if (frames_.size() > 1 || given_count_ == 0) {
         text_.fail(fmt::format("the frame ends without the bone {}", skeleton_.bones[b].name), "is the file complete?");
       }
+      rigid_[b] = true;
+      --moving_;
+      warnings_.push_back(
+          fmt::format("the frames do not have the bone {}: it is taken as rigid", skeleton_.bones[b].name));
     }
+  }
+
+  [[nodiscard]] bool moves(std::size_t bone) const {
+    return !skeleton_.motions[bone].channels.empty() && !rigid_[bone];
   }
 
   void bone() {
@@ -87,6 +105,7 @@ class AmcParser {
       text_.fail(
           fmt::format("the bone {} needs {} values, here are {}", name, motion.channels.size(), words_.size() - 1));
     }
+    if (rigid_[b]) text_.fail(fmt::format("the frames before do not have the bone {}", name), "is the file complete?");
     if (given_[b]) text_.fail(fmt::format("the bone {} is given twice in one frame", name));
     given_[b] = true;
     ++given_count_;
@@ -101,6 +120,7 @@ class AmcParser {
     for (std::size_t i = 0; i < motion.channels.size(); ++i) {
       const double value = text_.number(words_[i + 1], "a value");
       const int channel = static_cast<int>(motion.channels[i]);
+      if (motion.channels[i] == MotionChannel::Length) continue;
       if (channel < 3) {
         translation[channel] = value * skeleton_.metres_per_unit;
       } else {
@@ -119,6 +139,8 @@ class AmcParser {
   std::map<std::string, std::size_t> index_;
   MotionFrame rest_;
   std::size_t moving_ = 0;
+  std::vector<bool> rigid_;  // bones with channels that the frames do not have
+  std::vector<std::string> warnings_;
   std::vector<MotionFrame> frames_;
   double last_number_ = -1;
   std::vector<bool> given_;
@@ -129,7 +151,7 @@ class AmcParser {
 
 SourceMotion readAmc(const std::filesystem::path& path, const AsfSkeleton& skeleton, double fps) {
   DMC_CHECK(fps > 0);
-  return {skeleton.bones, fps, AmcParser(path, skeleton).parse()};
+  return AmcParser(path, skeleton).parse(fps);
 }
 
 }  // namespace depthmocap

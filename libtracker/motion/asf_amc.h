@@ -6,8 +6,8 @@
 
 namespace depthmocap {
 
-// The order in which values of a file turn and move a bone.
-enum class MotionChannel { Tx, Ty, Tz, Rx, Ry, Rz };
+// The order in which values of a file turn and move a bone. Bones are rigid: Length, a stretch, is not used.
+enum class MotionChannel { Tx, Ty, Tz, Rx, Ry, Rz, Length };
 
 // An ASF skeleton (Acclaim 1.10): the bones in metres (value / :length * 0.0254, the :units of the file), and how the
 // AMC turns them. Angles in the unit that :units names.
@@ -28,7 +28,9 @@ struct AsfSkeleton {
 // file:line.
 AsfSkeleton readAsf(const std::filesystem::path& path);
 
-// Reads an AMC file for a skeleton. The format holds no frame rate: fps [1/s] is the caller's. Error with file:line.
+// Reads an AMC file for a skeleton. The format holds no frame rate: fps [1/s] is the caller's. A last frame
+// that is cut short is left out, and a bone that no frame has is rigid, with a line in `warnings`. Error with
+// file:line.
 SourceMotion readAmc(const std::filesystem::path& path, const AsfSkeleton& skeleton, double fps);
 
 // Writes a motion whose bones are in metres as ASF and AMC (:length 0.45, degrees, XYZ axes along the world's).

@@ -85,14 +85,14 @@ class AsfParser {
   }
 
   std::vector<MotionChannel> channelsFrom(std::size_t first) const {
-    static const std::map<std::string, MotionChannel> kNames = {{"tx", MotionChannel::Tx}, {"ty", MotionChannel::Ty},
-                                                                {"tz", MotionChannel::Tz}, {"rx", MotionChannel::Rx},
-                                                                {"ry", MotionChannel::Ry}, {"rz", MotionChannel::Rz}};
+    static const std::map<std::string, MotionChannel> kNames = {
+        {"tx", MotionChannel::Tx}, {"ty", MotionChannel::Ty}, {"tz", MotionChannel::Tz},   {"rx", MotionChannel::Rx},
+        {"ry", MotionChannel::Ry}, {"rz", MotionChannel::Rz}, {"l", MotionChannel::Length}};
     std::vector<MotionChannel> channels;
     for (std::size_t i = first; i < words_.size(); ++i) {
       const auto found = kNames.find(lowerCase(words_[i]));
       if (found == kNames.end())
-        text_.fail(fmt::format("'{}' is not a channel this program knows (tx .. rz)", words_[i]));
+        text_.fail(fmt::format("'{}' is not a channel this program knows (tx .. rz, l)", words_[i]));
       if (std::count(channels.begin(), channels.end(), found->second) > 0) text_.fail("a channel is given twice");
       channels.push_back(found->second);
     }

@@ -3,52 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
-#include "libtracker/motion/text_scanner.h"
+#include "libtracker/skeleton/skeleton.h"
 
 namespace depthmocap {
 namespace {
 
 using Eigen::Vector3d;
 
-// Of a side's bone in each naming, best first; "%" stands for "l" or "left" and "r" or "right".
-using Names = std::span<const std::string_view>;
-constexpr std::string_view kHumerus[] = {"%humerus", "%arm", "%upperarm", "%uparm", "%shldr", "%shoulder"};
-constexpr std::string_view kRadius[] = {"%radius", "%forearm", "%lowerarm", "%lowarm", "%elbow"};
-constexpr std::string_view kFingerBase[] = {"%fingerbase"};
-constexpr std::string_view kHand[] = {"%hand"};
-constexpr std::string_view kWrist[] = {"%wrist"};
-constexpr std::string_view kFemur[] = {"%femur", "%upleg", "%upperleg", "%thigh", "%hip"};
-constexpr std::string_view kTibia[] = {"%tibia", "%leg", "%lowerleg", "%lowleg", "%shin", "%knee"};
-constexpr std::string_view kFoot[] = {"%foot", "%ankle"};
-constexpr std::string_view kToe[] = {"%toes", "%toebase", "%toe"};
-
-// Lower case, without the name space ("mixamorig:") and without blanks, dots, dashes and underscores.
-std::string plainName(std::string_view name) {
-  const auto colon = name.rfind(':');
-  if (colon != std::string_view::npos) name.remove_prefix(colon + 1);
-  std::string plain = lowerCase(name);
-  std::erase_if(plain, [](char c) { return c == ' ' || c == '_' || c == '-' || c == '.'; });
-  return plain;
-}
-
 class RoleFinder {
  public:
-  RoleFinder(const std::vector<MotionBone>& bones, const std::string& where)
-      : bones_(bones), where_(where), rest_(restFrame(bones)) {
-    for (const MotionBone& bone : bones) names_.push_back(plainName(bone.name));
-  }
+  RoleFinder(const std::vector<MotionBone>& bones, const NamedBones& named, const std::string& where)
+      : bones_(bones), named_(named), where_(where), rest_(restFrame(bones)) {}
 
   BoneRoles find() {
     BoneRoles roles;
-    roles.left = side("l", "left");
-    roles.right = side("r", "right");
-    roles.head = need(indexOf("head"), "head");
+    roles.left = side(named_.left, "left");
+    roles.right = side(named_.right, "right");
+    roles.head = need(named_.head, "head");
     roles.pelvis = commonAncestor(roles.left.femur, roles.right.femur);
     roles.thorax = commonAncestor(commonAncestor(roles.left.humerus, roles.right.humerus), roles.head);
     roles.neck = neck(roles);
@@ -60,70 +36,71 @@ class RoleFinder {
   }
 
  private:
-  [[nodiscard]] int indexOf(std::string_view plain) const {
-    const auto found = std::find(names_.begin(), names_.end(), plain);
-    return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
-  }
-
-  [[nodiscard]] int sideBone(Names patterns, std::string_view short_side, std::string_view long_side) const {
-    for (const std::string_view pattern : patterns) {
-      for (const std::string_view side : {short_side, long_side}) {
-        const int index = indexOf(std::string(side) + std::string(pattern.substr(1)));
-        if (index >= 0) return index;
-      }
-    }
-    return -1;
-  }
-
   int need(int index, std::string_view part) const {
     if (index >= 0) return index;
     throw Error(fmt::format("the skeleton has no bone that can be the {}", part), where_,
-                "known names: ASF (lhumerus), LeftArm, lShldr and their like");
+                "--bones MAP.json says which bone is which");
   }
 
-  // The end of a limb: the origin of the bone of that name, or the tip of the bone before.
-  [[nodiscard]] SourcePoint end(int bone, int before, std::string_view part) const {
-    if (bone >= 0) return {bone, Vector3d::Zero()};
-    const MotionBone& limb = bones_[static_cast<std::size_t>(before)];
-    need(limb.has_tip ? before : -1, part);
-    return {before, limb.tip};
+  [[nodiscard]] const MotionBone& bone(int index) const { return bones_[static_cast<std::size_t>(index)]; }
+
+  // The end of a limb: the origin of the bone of that name, or the tip of the bone before, or else a point at an
+  // adult's share of the bone before that one.
+  [[nodiscard]] SourcePoint end(int end_bone, int before, const Vector3d& guess) const {
+    if (end_bone >= 0) return {end_bone, Vector3d::Zero()};
+    const MotionBone& limb = bone(before);
+    return {before, limb.has_tip && limb.tip.norm() > 0 ? limb.tip : guess};
   }
 
   // ASF skeletons divide the forearm: radius, then a bone "wrist" half as long that only pronates, then the hand. Where
   // the palms stand on the floor (cartwheels, CMU 49_06 to 49_08), radius ends 6 cm above it and the "wrist" bone 3 cm
   // below: the wrist's centre is half way between. The cgspeed BVH files of the same motions leave the "wrist" bone
   // out.
-  [[nodiscard]] SourcePoint wrist(std::string_view short_side, std::string_view long_side, int radius) const {
+  [[nodiscard]] SourcePoint wrist(const NamedBones::Side& s) const {
     constexpr double kWristBeyondRadius = 0.25;
-    const int hand = sideBone(kHand, short_side, long_side);
-    const int wrist = sideBone(kWrist, short_side, long_side);
-    const int finger_base = sideBone(kFingerBase, short_side, long_side);
-    if (wrist >= 0 && bones_[static_cast<std::size_t>(wrist)].has_tip && hand >= 0 && parentOf(hand) == wrist) {
-      return {wrist, 0.5 * bones_[static_cast<std::size_t>(wrist)].tip};
+    if (s.wrist >= 0 && bone(s.wrist).has_tip && s.hand >= 0 && parentOf(s.hand) == s.wrist) {
+      return {s.wrist, 0.5 * bone(s.wrist).tip};
     }
-    if (finger_base >= 0 && parentOf(finger_base) == hand && parentOf(hand) == radius &&
-        origin(finger_base) == origin(hand)) {
-      return {radius, (1.0 + kWristBeyondRadius) * bones_[static_cast<std::size_t>(hand)].offset};
+    if (s.finger_base >= 0 && parentOf(s.finger_base) == s.hand && parentOf(s.hand) == s.radius &&
+        origin(s.finger_base) == origin(s.hand)) {
+      return {s.radius, (1.0 + kWristBeyondRadius) * bone(s.hand).offset};
     }
-    return end(wrist >= 0 ? wrist : hand, radius, "hand");
+    const BoneLengths adult;
+    const Vector3d lower_arm = adult.lower_arm / adult.upper_arm * (origin(s.radius) - origin(s.humerus));
+    return end(s.wrist >= 0 ? s.wrist : s.hand, s.radius, lower_arm);
   }
 
-  [[nodiscard]] BoneRoles::Side side(std::string_view short_side, std::string_view long_side) const {
-    const auto named = [&](Names patterns, std::string_view part) {
-      return need(sideBone(patterns, short_side, long_side), fmt::format("{} {}", long_side, part));
-    };
+  [[nodiscard]] BoneRoles::Side side(const NamedBones::Side& s, std::string_view name) const {
+    const auto named = [&](int index, std::string_view part) { return need(index, fmt::format("{} {}", name, part)); };
     BoneRoles::Side side;
-    side.humerus = named(kHumerus, "upper arm");
-    side.radius = named(kRadius, "lower arm");
-    side.femur = named(kFemur, "upper leg");
-    side.tibia = named(kTibia, "lower leg");
-    side.foot = named(kFoot, "foot");
-    side.wrist = wrist(short_side, long_side, side.radius);
-    side.toe = end(sideBone(kToe, short_side, long_side), side.foot, "toe");
+    side.humerus = named(s.humerus, "upper arm");
+    side.radius = named(s.radius, "lower arm");
+    side.femur = named(s.femur, "upper leg");
+    side.tibia = named(s.tibia, "lower leg");
+    side.foot = s.foot;
+    side.wrist = wrist(s);
+    const BoneLengths adult;
+    const Vector3d thigh = origin(side.tibia) - origin(side.femur);
+    side.ankle = end(s.foot, side.tibia, adult.lower_leg / adult.upper_leg * thigh);
+    side.toe = toe(s);
     return side;
   }
 
-  [[nodiscard]] int parentOf(int bone) const { return bones_[static_cast<std::size_t>(bone)].parent; }
+  // Feet without toes and tip point forward: an adult's foot for the leg, the toe near the floor.
+  [[nodiscard]] SourcePoint toe(const NamedBones::Side& s) const {
+    constexpr double kDrop = 0.5;  // ankle above toe against their distance along the floor
+    const BoneLengths adult;
+    const Vector3d thigh = origin(s.tibia) - origin(s.femur);
+    const Vector3d across = origin(named_.left.femur) - origin(named_.right.femur);
+    const Vector3d forward = thigh.cross(across).normalized();
+    const Vector3d guess =
+        (forward + kDrop * thigh.normalized()).normalized() * (adult.foot / adult.upper_leg * thigh.norm());
+    if (s.foot >= 0) return end(s.toe, s.foot, guess);
+    const MotionBone& shin = bone(s.tibia);
+    return {s.tibia, (shin.has_tip ? shin.tip : Vector3d(adult.lower_leg / adult.upper_leg * thigh)) + guess};
+  }
+
+  [[nodiscard]] int parentOf(int bone) const { return this->bone(bone).parent; }
   [[nodiscard]] const Vector3d& origin(int bone) const { return rest_.position[static_cast<std::size_t>(bone)]; }
 
   // Parents stand before children, so the larger index cannot be the ancestor of the smaller one.
@@ -149,8 +126,7 @@ class RoleFinder {
   [[nodiscard]] Vector3d headCenter(const BoneRoles& roles) const {
     const MotionBone& head = bones_[static_cast<std::size_t>(roles.head)];
     if (head.has_tip && head.tip.norm() > 0) return 0.5 * head.tip;
-    const int crown = indexOf("headtopend");
-    if (crown >= 0 && parentOf(crown) == roles.head) return 0.5 * bones_[static_cast<std::size_t>(crown)].offset;
+    if (named_.crown >= 0 && parentOf(named_.crown) == roles.head) return 0.5 * bone(named_.crown).offset;
     const RestTrunk trunk = restTrunk(rest_, roles);
     const Vector3d up = trunk.axes.col(1);
     double height = 0;
@@ -181,15 +157,15 @@ class RoleFinder {
   }
 
   const std::vector<MotionBone>& bones_;
+  const NamedBones& named_;
   const std::string& where_;
   GlobalFrame rest_;
-  std::vector<std::string> names_;
 };
 
 }  // namespace
 
-BoneRoles findBoneRoles(const std::vector<MotionBone>& bones, const std::string& where) {
-  return RoleFinder(bones, where).find();
+BoneRoles findBoneRoles(const std::vector<MotionBone>& bones, const NamedBones& named, const std::string& where) {
+  return RoleFinder(bones, named, where).find();
 }
 
 RestTrunk restTrunk(const GlobalFrame& rest, const BoneRoles& roles) {
@@ -210,18 +186,19 @@ RestTrunk restTrunk(const GlobalFrame& rest, const BoneRoles& roles) {
 double detectMetresPerUnit(const GlobalFrame& rest, const BoneRoles& roles, const std::string& where) {
   constexpr double kAdult = 1.4;
   constexpr double kFactor = 1.6;
-  constexpr std::array<double, 5> kUnits = {1.0, 0.01, 0.001, 0.0254, 0.0254 / 0.45};
+  constexpr std::array<double, 7> kUnits = {1.0, 0.3048, 0.1, 0.01, 0.001, 0.0254, 0.0254 / 0.45};
   const auto origin = [&](int bone) -> const Vector3d& { return rest.position[static_cast<std::size_t>(bone)]; };
   const auto& leg = roles.left;
   const RestTrunk trunk = restTrunk(rest, roles);
-  const double size = (origin(leg.tibia) - origin(leg.femur)).norm() + (origin(leg.foot) - origin(leg.tibia)).norm() +
+  const double size = (origin(leg.tibia) - origin(leg.femur)).norm() +
+                      (rest.point(leg.ankle.bone, leg.ankle.p_bone) - origin(leg.tibia)).norm() +
                       (trunk.neck - trunk.hips).norm();
   const auto distance = [&](double unit) { return std::abs(std::log(size * unit / kAdult)); };
   const double best =
       *std::min_element(kUnits.begin(), kUnits.end(), [&](double a, double b) { return distance(a) < distance(b); });
   if (!(distance(best) < std::log(kFactor))) {
     throw Error(fmt::format("cannot tell the unit of length: legs and trunk measure {:.4g} together", size), where,
-                "give the unit in metres");
+                "--unit says how many metres one unit is");
   }
   return best;
 }

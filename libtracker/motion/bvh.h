@@ -10,9 +10,12 @@
 namespace depthmocap {
 
 // Reads a BVH file in its own unit and with its own axis up. Rotations multiply in the order in which the channels are
-// listed (Zrotation Xrotation Yrotation: R = Rz Rx Ry, degrees); position channels replace the OFFSET. An End Site is
-// its parent's tip. Unknown keywords of the hierarchy are skipped with their line. Error with file:line.
-SourceMotion readBvh(const std::filesystem::path& path);
+// listed (Zrotation Xrotation Yrotation: R = Rz Rx Ry, degrees); position channels replace the OFFSET, scale channels
+// are passed over. An End Site is its parent's tip. Of several ROOTs the one with the most joints is read. What other
+// programs write otherwise (decimal commas, rows over several lines, a wrong number of frames, a last row cut short, a
+// frame time that is none) is read with a line in `warnings`; fps_if_unsaid [1/s] (> 0) where the file gives no rate.
+// Error with file:line.
+SourceMotion readBvh(const std::filesystem::path& path, double fps_if_unsaid = 30.0);
 
 // Writes BVH row by row; the file appears at finish(), which knows how many there are, and without it nothing stays.
 // Rows wait in memory, half a kilobyte each. Channels: root Xposition Yposition Zposition Zrotation Yrotation

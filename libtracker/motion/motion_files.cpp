@@ -1,9 +1,11 @@
 #include "libtracker/motion/motion_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include "libtracker/motion/asf_amc.h"
 #include "libtracker/motion/bone_roles.h"
 #include "libtracker/motion/bvh.h"
+#include "libtracker/motion/standing_rest.h"
 #include "libtracker/motion/text_scanner.h"
 
 namespace depthmocap {
@@ -51,7 +54,7 @@ void repairFirstFrame(SourceMotion& motion, double metres_per_unit) {
 }  // namespace
 
 void LoadOptions::validate() const {
-  requirePositive(amc_fps, "amc_fps");
+  requirePositive(fps_if_unsaid, "fps_if_unsaid");
   requirePositive(max_fps, "max_fps");
   if (bvh_metres_per_unit) requirePositive(*bvh_metres_per_unit, "bvh_metres_per_unit");
 }
@@ -64,31 +67,72 @@ fs::path asfFor(const fs::path& amc) {
       if (fs::is_regular_file(candidate)) return candidate;
     }
   }
-  throw Error("there is no ASF file for this motion beside it", amc.string(), "name the skeleton's ASF file");
+  std::vector<fs::path> skeletons;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(amc.has_parent_path() ? amc.parent_path() : ".", failure)) {
+    if (extensionOf(entry.path()) == ".asf") skeletons.push_back(entry.path());
+  }
+  if (skeletons.size() == 1) return skeletons[0];
+  throw Error("there is no ASF file for this motion beside it", amc.string(), "--asf names the skeleton's file");
 }
+
+namespace {
+
+SourceMotion readMotionFile(const fs::path& path, const LoadOptions& options) {
+  const std::string extension = extensionOf(path);
+  if (extension == ".amc") {
+    return readAmc(path, readAsf(options.asf ? *options.asf : asfFor(path)), options.fps_if_unsaid);
+  }
+  if (extension == ".bvh") return readBvh(path, options.fps_if_unsaid);
+  throw Error("this is neither an .amc nor a .bvh file", path.string());
+}
+
+// An AMC's lengths are in metres; a BVH says nothing.
+double metresPerUnit(SourceMotion& motion, const NamedBones& named, const fs::path& path, const LoadOptions& options) {
+  if (extensionOf(path) == ".amc") return 1.0;
+  if (options.bvh_metres_per_unit) return *options.bvh_metres_per_unit;
+  const std::vector<MotionBone> bones = meanBones(motion);
+  const double unit = detectMetresPerUnit(restFrame(bones), findBoneRoles(bones, named, path.string()), path.string());
+  constexpr std::array<std::pair<double, const char*>, 2> kRare = {{{0.3048, "feet"}, {0.1, "decimetres"}}};
+  for (const auto& [value, name] : kRare) {
+    if (unit == value) motion.warnings.push_back(fmt::format("the body's size says that lengths are {}", name));
+  }
+  return unit;
+}
+
+// Where the body does not follow the file.
+void addFitWarnings(RetargetResult& result) {
+  constexpr double kLargeResidual_m = 0.02;
+  constexpr double kManyFrames = 0.3;  // CMU's motions are below
+  constexpr double kMillimetres = 1000.0;
+  constexpr double kPercent = 100.0;
+  const double mean = result.residuals.mean();
+  if (mean > kLargeResidual_m) {
+    result.warnings.push_back(
+        fmt::format("joints are {:.0f} mm off the file's on average: is it read rightly?", kMillimetres * mean));
+  }
+  if (result.beyond_limits > kManyFrames) {
+    result.warnings.push_back(fmt::format("{:.0f} % of the frames are beyond the joint limits: is it read rightly?",
+                                          kPercent * result.beyond_limits));
+  }
+}
+
+}  // namespace
 
 RetargetResult retargetMotionFile(const fs::path& path, const LoadOptions& options) {
   options.validate();
-  const std::string extension = extensionOf(path);
-  SourceMotion motion;
-  double metres_per_unit = 1.0;
-  if (extension == ".amc") {
-    motion = readAmc(path, readAsf(options.asf ? *options.asf : asfFor(path)), options.amc_fps);
-  } else if (extension == ".bvh") {
-    motion = readBvh(path);
-    const GlobalFrame rest = restFrame(motion.bones);
-    metres_per_unit = options.bvh_metres_per_unit
-                          ? *options.bvh_metres_per_unit
-                          : detectMetresPerUnit(rest, findBoneRoles(motion.bones, path.string()), path.string());
-  } else {
-    throw Error("this is neither an .amc nor a .bvh file", path.string());
-  }
+  SourceMotion motion = readMotionFile(path, options);
+  const NamedBones named = namedBones(motion.bones, options.bones, path.string());
+  findBoneRoles(meanBones(motion), named, path.string());  // Error where a part is missing
+  motion = withStandingRest(std::move(motion), named);
+  const double metres_per_unit = metresPerUnit(motion, named, path, options);
   if (options.repair_first_frame) repairFirstFrame(motion, metres_per_unit);
   // A rate that differs only by the digits of its file (0.0333333 s) needs no new frames.
   constexpr double kSameRate = 1.001;
   if (motion.fps > options.max_fps * kSameRate) motion = resampled(motion, options.max_fps);
-  RetargetResult result = retarget(motion, metres_per_unit, path.string());
+  RetargetResult result = retarget(motion, named, metres_per_unit, path.string());
   result.clip.name = path.stem().string();
+  addFitWarnings(result);
   return result;
 }
 

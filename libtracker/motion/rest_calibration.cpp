@@ -16,18 +16,6 @@ std::size_t at(Joint joint) {
   return static_cast<std::size_t>(joint);
 }
 
-// The bones with the mean of their positions as offsets: files may move joints that a skeleton holds.
-std::vector<MotionBone> meanBones(const SourceMotion& motion) {
-  std::vector<MotionBone> bones = motion.bones;
-  if (motion.frames.empty()) return bones;
-  for (std::size_t b = 1; b < bones.size(); ++b) {
-    Vector3d sum = Vector3d::Zero();
-    for (const MotionFrame& frame : motion.frames) sum += frame.position[b];
-    bones[b].offset = sum / static_cast<double>(motion.frames.size());
-  }
-  return bones;
-}
-
 // The axis about which a limb's lower bone turns, in the upper bone's frame: mean over the frames of upper x lower,
 // each weighted by the square of how far the limb is bent; positive about it is flexion of a knee. Zero if the limb
 // never bends.
@@ -49,10 +37,11 @@ Vector3d meanHingeAxis(const SourceMotion& motion, int upper, int lower, const V
 
 }  // namespace
 
-RestCalibration::RestCalibration(const SourceMotion& motion, double metres_per_unit, const std::string& where)
+RestCalibration::RestCalibration(const SourceMotion& motion, const NamedBones& named, double metres_per_unit,
+                                 const std::string& where)
     : metres_per_unit_(metres_per_unit) {
   const std::vector<MotionBone> bones = meanBones(motion);
-  roles_ = findBoneRoles(bones, where);
+  roles_ = findBoneRoles(bones, named, where);
   const GlobalFrame rest = restFrame(bones);
   const RestTrunk trunk = restTrunk(rest, roles_);
   R_ours_source_ = Eigen::Quaterniond::FromTwoVectors(trunk.axes.col(1), Vector3d::UnitY()).toRotationMatrix();
@@ -74,8 +63,8 @@ void RestCalibration::measure(const GlobalFrame& rest, const RestTrunk& trunk) {
   l.upper_arm = both([&](const Side& s) { return (origin(s.radius) - origin(s.humerus)).norm(); });
   l.lower_arm = both([&](const Side& s) { return (point(s.wrist) - origin(s.radius)).norm(); });
   l.upper_leg = both([&](const Side& s) { return (origin(s.tibia) - origin(s.femur)).norm(); });
-  l.lower_leg = both([&](const Side& s) { return (origin(s.foot) - origin(s.tibia)).norm(); });
-  l.foot = both([&](const Side& s) { return (point(s.toe) - origin(s.foot)).norm(); });
+  l.lower_leg = both([&](const Side& s) { return (point(s.ankle) - origin(s.tibia)).norm(); });
+  l.foot = both([&](const Side& s) { return (point(s.toe) - point(s.ankle)).norm(); });
   l.shoulder_width = metres_per_unit_ * (origin(roles_.left.humerus) - origin(roles_.right.humerus)).norm();
   l.hip_width = metres_per_unit_ * (origin(roles_.left.femur) - origin(roles_.right.femur)).norm();
   l.shoulder_drop = both([&](const Side& s) { return up.dot(trunk.neck - origin(s.humerus)); });
@@ -106,7 +95,7 @@ void RestCalibration::mapJoints(const GlobalFrame& rest, const RestTrunk& trunk)
     joints_[at(shoulder) + 2] = s.wrist;
     joints_[at(hip)] = origin(s.femur);
     joints_[at(hip) + 1] = origin(s.tibia);
-    joints_[at(hip) + 2] = origin(s.foot);
+    joints_[at(hip) + 2] = s.ankle;
     joints_[at(hip) + 3] = s.toe;
   };
   side(roles_.left, Joint::LeftShoulder, Joint::LeftHip);
@@ -132,11 +121,10 @@ void RestCalibration::mapAxes(const SourceMotion& motion, const GlobalFrame& res
   };
   const auto& r = roles_.right;
   const auto& l = roles_.left;
-  const auto footOf = [](const BoneRoles::Side& s) { return SourcePoint{s.foot, Vector3d::Zero()}; };
   axes_[3] = hinge(r.humerus, r.radius, r.wrist, -Vector3d::UnitX(), Vector3d::UnitY(), 1);
   axes_[4] = hinge(l.humerus, l.radius, l.wrist, Vector3d::UnitX(), Vector3d::UnitY(), -1);
-  axes_[5] = hinge(r.femur, r.tibia, footOf(r), -Vector3d::UnitY(), Vector3d::UnitX(), 1);
-  axes_[6] = hinge(l.femur, l.tibia, footOf(l), -Vector3d::UnitY(), Vector3d::UnitX(), 1);
+  axes_[5] = hinge(r.femur, r.tibia, r.ankle, -Vector3d::UnitY(), Vector3d::UnitX(), 1);
+  axes_[6] = hinge(l.femur, l.tibia, l.ankle, -Vector3d::UnitY(), Vector3d::UnitX(), 1);
 }
 
 void RestCalibration::targets(const GlobalFrame& frame, FitTargets& targets) const {

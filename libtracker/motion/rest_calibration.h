@@ -39,7 +39,8 @@ class RestCalibration {
  public:
   // metres_per_unit of the motion's lengths. The motion's frames are used for moving offsets and hinge axes. `where`
   // names the file in Errors.
-  RestCalibration(const SourceMotion& motion, double metres_per_unit, const std::string& where);
+  RestCalibration(const SourceMotion& motion, const NamedBones& named, double metres_per_unit,
+                  const std::string& where);
 
   [[nodiscard]] const BoneLengths& lengths() const { return lengths_; }
   void targets(const GlobalFrame& frame, FitTargets& targets) const;

@@ -181,6 +181,13 @@ void canonicaliseRoot(Pose& q, double heading_before) {
   q[kRootRy] -= kTurn * std::round((q[kRootRy] - heading_before) / kTurn);
 }
 
+bool clearlyBeyondLimits(const Pose& q) {
+  constexpr double kClearly = 0.35;  // [rad] performers go a little beyond the limits of most people
+  const JointLimits& limits = jointLimits();
+  const auto over = (q - limits.upper).cwiseMax(limits.lower - q).tail<kBodyDofs>();
+  return over.maxCoeff() > kClearly;
+}
+
 class Fitter {
  public:
   Fitter(const RestCalibration& calibration, const Skeleton& skeleton)
@@ -237,10 +244,12 @@ double RetargetResiduals::mean() const {
   return sum / kJointCount;
 }
 
-RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, const std::string& where) {
+RetargetResult retarget(const SourceMotion& motion, const NamedBones& named, double metres_per_unit,
+                        const std::string& where) {
   DMC_CHECK(!motion.frames.empty() && metres_per_unit > 0);
-  const RestCalibration calibration(motion, metres_per_unit, where);
+  const RestCalibration calibration(motion, named, metres_per_unit, where);
   RetargetResult result;
+  result.warnings = motion.warnings;
   result.clip.fps = motion.fps;
   result.clip.lengths = calibration.lengths();
   result.clip.poses.reserve(motion.frames.size());
@@ -252,6 +261,8 @@ RetargetResult retarget(const SourceMotion& motion, double metres_per_unit, cons
     globalFrame(motion.bones, frame, global);
     result.clip.poses.push_back(fitter.next(global, distance));
     result.source_joints.push_back(fitter.targets());
+    if (clearlyBeyondLimits(result.clip.poses.back()))
+      result.beyond_limits += 1.0 / static_cast<double>(motion.frames.size());
     for (int j = 0; j < kJointCount; ++j) {
       const auto i = static_cast<std::size_t>(j);
       result.residuals.mean_m[i] += distance[j] / static_cast<double>(motion.frames.size());

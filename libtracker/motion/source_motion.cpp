@@ -39,9 +39,20 @@ GlobalFrame restFrame(const std::vector<MotionBone>& bones) {
   return global;
 }
 
+std::vector<MotionBone> meanBones(const SourceMotion& motion) {
+  std::vector<MotionBone> bones = motion.bones;
+  if (motion.frames.empty()) return bones;
+  for (std::size_t b = 1; b < bones.size(); ++b) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const MotionFrame& frame : motion.frames) sum += frame.position[b];
+    bones[b].offset = sum / static_cast<double>(motion.frames.size());
+  }
+  return bones;
+}
+
 SourceMotion resampled(const SourceMotion& motion, double fps) {
   DMC_CHECK(fps > 0 && motion.fps > 0);
-  SourceMotion result{motion.bones, fps, {}};
+  SourceMotion result{motion.bones, fps, {}, motion.warnings};
   if (motion.frames.empty()) return result;
   const double step = motion.fps / fps;
   const double last = static_cast<double>(motion.frames.size() - 1);

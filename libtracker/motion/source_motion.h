@@ -27,6 +27,8 @@ struct SourceMotion {
   std::vector<MotionBone> bones;
   double fps = 30.0;  // [1/s] (> 0)
   std::vector<MotionFrame> frames;
+  // What the reader had to guess or leave out, a line each, without the file's name.
+  std::vector<std::string> warnings = {};
 
   // Index of the bone of this name, -1 if there is none.
   [[nodiscard]] int find(std::string_view name) const;
@@ -44,6 +46,10 @@ struct GlobalFrame {
 void globalFrame(const std::vector<MotionBone>& bones, const MotionFrame& frame, GlobalFrame& global);
 // The rest pose: identity rotations, bones at their offsets.
 GlobalFrame restFrame(const std::vector<MotionBone>& bones);
+
+// The bones with the mean of their positions as offsets (the root's stays): files may move joints that a skeleton
+// holds.
+std::vector<MotionBone> meanBones(const SourceMotion& motion);
 
 // The motion at another rate [1/s] (> 0): rotations by slerp, positions linearly. Keeps the first frame's time.
 SourceMotion resampled(const SourceMotion& motion, double fps);

@@ -14,13 +14,34 @@ namespace depthmocap {
 
 namespace {
 constexpr std::size_t kShownBytes = 40;  // of a damaged word, in a message
-}
+}  // namespace
 
 TextScanner::TextScanner(const std::filesystem::path& path, std::string_view extra_separators, char comment)
     : path_(path.string()),
       text_(readFile(path, "the motion file", kMaxBytes)),
       separators_(extra_separators),
-      comment_(comment) {}
+      comment_(comment) {
+  if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
+  if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) {
+    throw Error("the file is UTF-16 text", path_, "save it as plain text (UTF-8)");
+  }
+}
+
+void TextScanner::mendDecimalCommas() {
+  constexpr std::size_t kTail = 4096;  // [bytes] enough for some numbers of the last rows
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  bool commas = false;
+  int in_word = 0;
+  for (std::size_t i = text_.size() > kTail ? text_.size() - kTail : 1; i + 1 < text_.size(); ++i) {
+    const char c = text_[i];
+    if (isSeparator(c) && c != ',') in_word = 0;
+    if (c == '.') return;
+    if (c != ',') continue;
+    if (++in_word > 1 || !isDigit(text_[i - 1]) || !isDigit(text_[i + 1])) return;
+    commas = true;
+  }
+  if (commas) std::replace(text_.begin(), text_.end(), ',', '.');
+}
 
 bool TextScanner::isSeparator(char c) const {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\0' || separators_.find(c) != std::string::npos;
@@ -30,11 +51,11 @@ void TextScanner::findNext() {
   if (has_next_) return;
   while (position_ < text_.size()) {
     const char c = text_[position_];
-    if (c == '\n') {
+    if (c == '\n' || (c == '\r' && (position_ + 1 == text_.size() || text_[position_ + 1] != '\n'))) {
       ++position_line_;
       ++position_;
     } else if (comment_ != 0 && c == comment_) {
-      position_ = std::min(text_.find('\n', position_), text_.size());
+      position_ = std::min(text_.find_first_of("\r\n", position_), text_.size());
     } else if (isSeparator(c)) {
       ++position_;
     } else {

@@ -8,13 +8,18 @@
 
 namespace depthmocap {
 
-// A motion file as words with line numbers. Blanks, tabs and carriage returns separate words, and so do the extra
-// separators; from the comment sign (0: none) to the end of the line is nothing. Every failure is an Error that names
-// file:line. The views stay valid as long as the scanner lives.
+// A motion file as words with line numbers. Lines end as on Unix, Windows or the old Macintosh; a UTF-8 byte order mark
+// is passed over, UTF-16 an Error. Blanks and tabs separate words, and so do the extra separators; from the comment
+// sign (0: none) to the end of the line is nothing. Every failure is an Error that names file:line. The views stay
+// valid as long as the scanner lives.
 class TextScanner {
  public:
   // Reads the whole file; Error where that fails or the file is larger than kMaxBytes.
   TextScanner(const std::filesystem::path& path, std::string_view extra_separators, char comment);
+
+  // Makes commas decimal points where the numbers at the end of the file are written so: each word there has at most
+  // one comma, between digits, and none has a point. Before the first word is taken.
+  void mendDecimalCommas();
 
   static constexpr std::size_t kMaxBytes = mebibytes(256);  // an hour of a BVH with 30 joints at 60 fps
 

@@ -70,8 +70,8 @@ std::string lineWith(const std::string& text, const std::string& word) {
 }
 
 TEST_F(Streaming, BvhInCentimetresWithRigidBones) {
-  replay("--bvh " + at("m.bvh") + " --bvh-rigid");
-  replay("--bvh " + at("cm.bvh") + " --bvh-rigid --bvh-unit cm");
+  replay("--bvh " + at("m.bvh"));
+  replay("--bvh " + at("cm.bvh") + " --bvh-unit cm");
   const std::string metres = readBytes(folder_ / "m.bvh");
   const std::string centimetres = readBytes(folder_ / "cm.bvh");
   const auto hip = [](const std::string& bvh) {
