@@ -92,7 +92,7 @@ Eigen::Vector2d ImageTerm::project(const BonePoint& point, const Pose& q, ImageJ
   }
   const CameraModel& c = projection_.camera;
   const double depth_m = std::max(kNearest_m, -p.z());
-  const Eigen::Vector2d uv(c.fx * p.x() / depth_m + c.cx, c.cy - c.fy * p.y() / depth_m);
+  Eigen::Vector2d uv(c.fx * p.x() / depth_m + c.cx, c.cy - c.fy * p.y() / depth_m);
   if (J != nullptr) {
     const double sinks = -p.z() > kNearest_m ? 1.0 : 0.0;
     J->row(0) = c.fx / depth_m * (J_p.row(0) + sinks * p.x() / depth_m * J_p.row(2));

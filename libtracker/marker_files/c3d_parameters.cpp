@@ -16,6 +16,11 @@ std::string capitals(std::string text) {
   return text;
 }
 
+// A byte that holds a number from -128 to 127.
+int asSigned(int byte) {
+  return byte < 128 ? byte : byte - 256;
+}
+
 }  // namespace
 
 C3dParameters::C3dParameters(C3dBytes& bytes) : bytes_(bytes) {
@@ -27,8 +32,8 @@ C3dParameters::C3dParameters(C3dBytes& bytes) : bytes_(bytes) {
   bytes.processor = static_cast<C3dBytes::Processor>(processor);
   std::size_t at = section + 4;
   for (int i = 0; i < kMaxRecords; ++i) {
-    const int name_length = std::abs(static_cast<std::int8_t>(bytes.byte(at)));
-    const int group = static_cast<std::int8_t>(bytes.byte(at + 1));
+    const int name_length = std::abs(asSigned(bytes.byte(at)));
+    const int group = asSigned(bytes.byte(at + 1));
     if (name_length == 0 || group == 0) break;
     const std::string name = capitals(bytes.text(at + 2, static_cast<std::size_t>(name_length)));
     const std::size_t next_at = at + 2 + static_cast<std::size_t>(name_length);
@@ -48,7 +53,7 @@ C3dParameters::C3dParameters(C3dBytes& bytes) : bytes_(bytes) {
 
 std::size_t C3dParameters::add(std::size_t at, int group, const std::string& name) {
   Value value;
-  value.type = static_cast<std::int8_t>(bytes_.byte(at));
+  value.type = asSigned(bytes_.byte(at));
   const std::size_t dimensions = bytes_.byte(at + 1);
   if (dimensions > kMaxDimensions) bytes_.fail("has a value of more dimensions than the format allows");
   for (std::size_t i = 0; i < dimensions; ++i) {
