@@ -191,7 +191,7 @@ void BodyFit::step(double mu, VectorXd& b, std::vector<Pose>& poses) const {
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
     const double information = std::pow(body.markers[m].site.deviation_m, -2);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<Eigen::Index>(kFirstOffset + 3 * static_cast<int>(m) + axis);
+      const auto i = kFirstOffset + 3 * static_cast<Eigen::Index>(m) + axis;
       A(i, i) += information;
       g[i] += information * b[i];
     }

@@ -149,7 +149,7 @@ std::optional<MarkerSite> onASide(std::string_view name, const Find& find) {
     } else {
       continue;
     }
-    if (const auto site = find(rest)) return side.is_right ? mirrored(*site) : *site;
+    if (auto site = find(rest)) return side.is_right ? mirrored(*site) : *site;
   }
   return std::nullopt;
 }
@@ -201,9 +201,9 @@ BonePoint sitePoint(const MarkerSite& site, const Skeleton& skeleton) {
 
 std::optional<MarkerSite> siteNamed(std::string_view name) {
   const std::string words = plain(name);
-  if (const auto site = exactly(kMiddle, words)) return site;
-  if (const auto site = onASide(words, [](std::string_view rest) { return exactly(kSided, rest); })) return site;
-  if (const auto site = onASide(words, [](std::string_view rest) { return beginning(kSided, rest); })) return site;
+  if (auto site = exactly(kMiddle, words)) return site;
+  if (auto site = onASide(words, [](std::string_view rest) { return exactly(kSided, rest); })) return site;
+  if (auto site = onASide(words, [](std::string_view rest) { return beginning(kSided, rest); })) return site;
   return beginning(kMiddle, words);
 }
 

@@ -131,6 +131,7 @@ void Repair::fitBody() {
   config.weight_m = kFirstWeight_m;
   const IkSolver rough(body().skeleton, config, learned_);
   std::vector<Pose> poses;
+  poses.reserve(views.size());
   for (const MarkerView& view : views) poses.push_back(rough.solve(viewTargets(body(), view)).q);
   fitMarkerBody(body(), views, rough.posePrior(), poses);
   const IkSolver solver(body().skeleton, config, learned_);
