@@ -155,6 +155,7 @@ std::vector<bool> largestTree(const std::vector<MotionBone>& bones) {
   }
   const auto largest = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
   std::vector<bool> belongs;
+  belongs.reserve(root.size());
   for (const std::size_t r : root) belongs.push_back(r == largest);
   return belongs;
 }
