@@ -141,6 +141,7 @@ Vector3d worldUp(const SourceMotion& motion, const NamedBones& named, const Vect
 // Turns every bone's frame so that its orientation `R_world_bone` becomes the identity.
 void rebase(SourceMotion& motion, const std::vector<Matrix3d>& R_world_bone) {
   std::vector<Eigen::Quaterniond> turn;
+  turn.reserve(R_world_bone.size());
   for (const Matrix3d& R : R_world_bone) turn.emplace_back(R);
   const auto parentTurn = [&](std::size_t b) {
     return motion.bones[b].parent < 0 ? Eigen::Quaterniond::Identity() : turn[at(motion.bones[b].parent)];
