@@ -22,6 +22,9 @@ class RoleFinder {
 
   BoneRoles find() {
     BoneRoles roles;
+    // Each side looks at both thighs.
+    need(named_.left.femur, "left upper leg");
+    need(named_.right.femur, "right upper leg");
     roles.left = side(named_.left, "left");
     roles.right = side(named_.right, "right");
     roles.head = need(named_.head, "head");
