@@ -70,6 +70,15 @@ bool growsUp(const std::vector<PoseImageTargets>& poses) {
   return sum >= 0;
 }
 
+// The entry of this pose; a new one for the first of its rows.
+template <typename Targets>
+Targets& entryOf(const std::string& id, std::unordered_map<std::string, std::size_t>& index_of,
+                 std::vector<Targets>& poses) {
+  const auto [at, is_new] = index_of.try_emplace(id, poses.size());
+  if (is_new) poses.push_back({id, {}});
+  return poses[at->second];
+}
+
 }  // namespace
 
 std::vector<PoseTargets> readTargetsFile(const std::filesystem::path& path) {
@@ -80,9 +89,8 @@ std::vector<PoseTargets> readTargetsFile(const std::filesystem::path& path) {
   while (csv.next()) {
     const std::string id = idOf(csv);
     const Joint joint = jointOf(csv);
-    const auto [at, is_new] = index_of.try_emplace(id, poses.size());
-    if (is_new) poses.push_back({id, {}});
-    const std::string refused = poses[at->second].targets.add(joint, {csv.number(2), csv.number(3), csv.number(4)});
+    auto& pose = entryOf(id, index_of, poses);
+    const std::string refused = pose.targets.add(joint, {csv.number(2), csv.number(3), csv.number(4)});
     if (!refused.empty()) csv.fail(refused);
   }
   if (poses.empty()) throw Error("holds no target", path.string(), "add rows pose_id,joint,x,y,z");
@@ -100,9 +108,8 @@ std::vector<PoseImageTargets> readImageTargetsFile(const std::filesystem::path& 
   while (csv.next()) {
     const std::string id = idOf(csv);
     const Joint joint = jointOf(csv);
-    const auto [at, is_new] = index_of.try_emplace(id, poses.size());
-    if (is_new) poses.push_back({id, {}});
-    auto& targets = poses[at->second].targets.targets;
+    auto& pose = entryOf(id, index_of, poses);
+    auto& targets = pose.targets.targets;
     for (const auto& other : targets) {
       if (other.joint == joint) csv.fail(fmt::format("joint '{}' is given twice for one pose", csv.field(1)));
     }

@@ -22,7 +22,10 @@ class HiddenLegsTest : public ::testing::Test {
     truth_ = modelMarkers(actor_, q, fk_);
     floor_ = Eigen::Vector4d(0, 1, 0, -fk_.position({Bone::LeftFoot, actor_.skeleton.left_toe}).y());
     MarkerSet seen = truth_;
-    for (int i = partIndex(Part::LeftUpperLeg); i <= partIndex(Part::RightLowerLeg); ++i) seen.confidence[i] = 0;
+    for (int i = partIndex(Part::LeftUpperLeg); i <= partIndex(Part::RightLowerLeg); ++i) {
+      seen.confidence[i] = 0;
+      seen.position.col(i).setZero();
+    }
     return seen;
   }
   // [m] Largest error of the leg's supposed markers.
@@ -64,7 +67,10 @@ TEST_F(HiddenLegsTest, SitWhereTheFloorIsNear) {
 
 TEST_F(HiddenLegsTest, SitWhereTheThighsAreSeenLevel) {
   MarkerSet seen = seenAboveLegs(seated());
-  for (const Part thigh : {Part::LeftUpperLeg, Part::RightUpperLeg}) seen.confidence[partIndex(thigh)] = 0.8;
+  for (const Part thigh : {Part::LeftUpperLeg, Part::RightUpperLeg}) {
+    seen.confidence[partIndex(thigh)] = 0.8;
+    seen.position.col(partIndex(thigh)) = truth_.position.col(partIndex(thigh));
+  }
   legs_.look(true, std::nullopt);
   const MarkerSet& completed = legs_.complete(seen, actor_);
   EXPECT_EQ(completed.confidence[partIndex(Part::LeftUpperLeg)], 0.8);
