@@ -50,12 +50,13 @@ void Person::track(const DepthFrame& frame, const PersonRegion& region, const Up
   observer.locate(memory.actor().radii_m, &prediction_, R_world_camera_, evidence_);
   clock.lap(&StageTimes::markers);
 
-  fitter_.look(frame.depth, region, camera_, world);
   // (3) nearest poses in the database, (4) local linear model over them
+  fitter_.supposeLegs(region, world);
   if (prediction_.has_pose && enough(region)) fitter_.buildPrior(evidence_, prediction_, memory.actor());
   clock.lap(&StageTimes::prior);
 
   // (5) maximum a posteriori pose
+  fitter_.look(frame.depth, region, camera_, R_world_camera_);
   const std::optional<Hypothesis> pose = fit(region);
   pose ? memory.accept(*pose, prediction_, world.floor()) : memory.miss(prediction_);
   report(region, world, pose);

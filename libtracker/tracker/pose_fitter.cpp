@@ -28,9 +28,8 @@ PoseFitter::PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor
       dense_(config.surface, config.free_space, config.policy.dense_rounds) {}
 
 void PoseFitter::look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
-                      const UprightWorld& world) {
-  dense_.look(depth, actor.mask, camera, world.R_world_camera());
-  legs_.look(actor.cut_below, world.floor());
+                      const Eigen::Matrix3d& R_world_camera) {
+  dense_.look(depth, actor.mask, camera, R_world_camera);
   whole_in_view_ = !actor.touches_border && !actor.covered && !actor.cut_below;
 }
 

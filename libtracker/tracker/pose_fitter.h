@@ -25,7 +25,10 @@ class PoseFitter {
   PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor& body, const TrackerConfig& config);
 
   // The image that the next evidence is of; depth and region must outlive the calls for this frame.
-  void look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera, const UprightWorld& world);
+  void look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
+            const Eigen::Matrix3d& R_world_camera);
+  // What is known of legs that are not in view; before buildPrior() and the fits of this frame.
+  void supposeLegs(const PersonRegion& actor, const UprightWorld& world) { legs_.look(actor.cut_below, world.floor()); }
 
   // (3) and (4) for fitNext(): the poses nearest to the markers and to the pose before, and the local model over them.
   void buildPrior(const Evidence& evidence, const Prediction& prediction, const Actor& actor);
