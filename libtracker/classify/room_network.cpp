@@ -27,7 +27,7 @@ ConvolutionLayer readLayer(ByteReader& file) {
   layer.stride = static_cast<int>(file.count(2));
   layer.dilation = static_cast<int>(file.count(2));
   file.check(layer.inputs > 0 && layer.outputs > 0 && layer.kernel % 2 == 1 && layer.stride > 0 && layer.dilation > 0);
-  file.check(layer.dilation * (layer.kernel / 2) <= FeatureMaps::kBorder);
+  file.check(layer.dilation * (layer.kernel / 2) <= PairedMaps::kBorder);
   const auto taps = static_cast<std::size_t>(layer.kernel) * static_cast<std::size_t>(layer.kernel) *
                     static_cast<std::size_t>(layer.inputs);
   layer.weights.resize(static_cast<std::size_t>(layer.outputs) * taps);
@@ -89,7 +89,7 @@ const FeatureMaps& evaluate(const RoomNetwork& network, int threads, RoomNetwork
       join(*input, memory.maps[static_cast<std::size_t>(kSkip[i])], joined);
       input = &joined;
     }
-    convolve(network.layers[i], *input, i != kOut, threads, memory.working, memory.maps[i]);
+    convolve(network.layers[i], *input, {.rectify = i != kOut, .threads = threads}, memory.paired[i], memory.maps[i]);
   }
   return memory.maps[kOut];
 }

@@ -26,7 +26,7 @@ RoomNetwork loadRoomNetwork(const std::filesystem::path& path);
 // The working memory of evaluate(), for reuse.
 struct RoomNetworkMemory {
   FeatureMaps input;
-  FeatureMaps working;
+  std::array<PairedMaps, 12> paired;  // the input of each layer, in whole numbers
   std::array<FeatureMaps, 12> maps;   // the output of each layer
   std::array<FeatureMaps, 3> joined;  // the inputs of u3, u2, u1
 };
