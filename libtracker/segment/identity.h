@@ -28,13 +28,27 @@ class IdentityMemory {
   void forgetAll() { identities_.clear(); }
 
  private:
-  void markNeighbourhood(const CoarseCloud& cloud);
+  struct DepthRange {
+    float near_m;  // [m] above far_m: nothing
+    float far_m;
+    void include(const DepthRange& other) {
+      near_m = std::min(near_m, other.near_m);
+      far_m = std::max(far_m, other.far_m);
+    }
+  };
+
+  struct CellBox {
+    int x0, y0, x1, y1;  // [x0, x1) and [y0, y1)
+  };
+
+  [[nodiscard]] CellBox boxOfKnown(const CoarseCloud& cloud) const;
+  void findDepthsAround(const CoarseCloud& cloud, const CellBox& box);
   [[nodiscard]] Identity nearest(const CoarseCloud& cloud, int x, int y) const;
 
   std::vector<Eigen::Vector3f> points_;  // of the frame before, as CoarseCloud has them
   std::vector<Identity> identities_;     // one per cell; empty = nothing is known
-  std::vector<std::uint8_t> is_near_;    // 1 for each cell within reach of one whose identity is known
-  std::vector<std::uint8_t> in_row_;     // working memory of markNeighbourhood()
+  std::vector<DepthRange> around_;       // of what is known within reach of each cell
+  std::vector<DepthRange> in_row_;       // working memory of findDepthsAround()
 };
 
 }  // namespace depthmocap

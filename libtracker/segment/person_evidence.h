@@ -1,4 +1,6 @@
 #pragma once
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,15 +24,41 @@ class PersonEvidence {
   [[nodiscard]] const std::vector<float>& shell() const { return shell_; }
 
  private:
+  // Of the map, near a cell of the cloud along one axis.
+  struct MapCell {
+    int map = 0;     // column or row of the map
+    int cell = 0;    // of the cloud, that it shows
+    float away = 0;  // [cells of the map]
+  };
+  struct Around {
+    int count = 0;
+    std::array<MapCell, 2> near;
+  };
+
+  static void findAround(int cells, const CoarseCloud& cloud, const RoomMap& map, int map_cells,
+                         std::vector<Around>& around);
   void readMap(const CoarseCloud& cloud, const RoomMap& map);
+  static std::size_t cellFor(const CoarseCloud& cloud, const RoomMap& map, float z, const Around& column,
+                             const Around& row);
   void measureSteps(const CoarseCloud& cloud, float gap_m);
   void smooth(const CoarseCloud& cloud);
+  void smoothColumns(const Eigen::ArrayXXf& share, Eigen::ArrayXXf& values);
 
   std::vector<float> odds_;
   std::vector<float> shell_;
-  std::vector<float> right_;  // how much of its evidence a cell hands to its right neighbour, [0, 1)
-  std::vector<float> down_;   // and to the one below
-  std::vector<float> there_;  // working memory of smooth()
+  // How much of its evidence a cell hands to its right neighbour, [0, 1), a column (y, x); and to the one below (x, y).
+  Eigen::ArrayXXf right_;
+  Eigen::ArrayXXf down_;
+  // Working memory.
+  std::vector<Around> columns_;
+  std::vector<Around> rows_;
+  Eigen::ArrayXXf image_;
+  Eigen::ArrayXXf turned_;
+  Eigen::ArrayXXf above_;  // what comes from the cells above, and its weight
+  Eigen::ArrayXXf above_weight_;
+  Eigen::ArrayXf below_;  // likewise, of one row
+  Eigen::ArrayXf below_weight_;
+  Eigen::ArrayXf here_;
 };
 
 }  // namespace depthmocap

@@ -45,6 +45,32 @@ constexpr int kCompanyFrames = 30;
 // Share of a person's usual score from which another component is somebody.
 constexpr float kCompanyLooks = 0.1F;
 
+// Counts the mask's pixels, all of them in the box.
+void summarise(const DepthImage& depth, const CameraModel& camera, const PixelBox& box, PersonRegion& out) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  out.pixel_count = 0;
+  out.touches_border = false;
+  out.centroid_camera.setZero();
+  for (int y = box.y0; y < box.y1; ++y) {
+    int count = 0;
+    double z_sum = 0;
+    double uz_sum = 0;
+    for (int x = box.x0; x < box.x1; ++x) {
+      const int inside = out.mask.at(x, y);
+      const double z = inside * static_cast<double>(depth.at(x, y));
+      count += inside;
+      z_sum += z;
+      uz_sum += x * z;
+    }
+    if (count == 0) continue;
+    out.pixel_count += count;
+    sum += Eigen::Vector3d((uz_sum - camera.cx * z_sum) / camera.fx, (y - camera.cy) / camera.fy * z_sum, z_sum);
+    const bool at_side = out.mask.at(0, y) != 0 || out.mask.at(depth.width - 1, y) != 0;
+    out.touches_border |= at_side || y == 0 || y == depth.height - 1;
+  }
+  if (out.pixel_count > 0) out.centroid_camera = sum / out.pixel_count;
+}
+
 }  // namespace
 
 std::vector<ConfigField> SegmentConfig::fields() {
@@ -118,7 +144,6 @@ struct Segmenter::Impl {
   void seeHowMuch(Followed& person, PersonRegion& region) const;
   void rememberPeople();
   void noteCompany(const Choice& choice, Identity who);
-  void summarise(const DepthImage& depth, const CameraModel& camera, PersonRegion& out) const;
 };
 
 Segmenter::Segmenter(const SegmentConfig& config) : impl_(std::make_unique<Impl>()) {
@@ -291,22 +316,6 @@ void Segmenter::Impl::noteCompany(const Choice& choice, Identity who) {
   }
 }
 
-void Segmenter::Impl::summarise(const DepthImage& depth, const CameraModel& camera, PersonRegion& out) const {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  out.pixel_count = 0;
-  out.touches_border = false;
-  out.centroid_camera.setZero();
-  for (int y = 0; y < depth.height; ++y) {
-    for (int x = 0; x < depth.width; ++x) {
-      if (out.mask.at(x, y) == 0) continue;
-      ++out.pixel_count;
-      sum += camera.unproject(x, y, static_cast<double>(depth.at(x, y)));
-      out.touches_border |= x == 0 || y == 0 || x == depth.width - 1 || y == depth.height - 1;
-    }
-  }
-  if (out.pixel_count > 0) out.centroid_camera = sum / out.pixel_count;
-}
-
 void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, const RoomLook& look,
                         const ExpectedPeople& expected, Segmentation& out) {
   DMC_CHECK(depth.width == camera.width && depth.height == camera.height && !depth.empty());
@@ -335,8 +344,8 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, cons
       s.take(s.choices[i], who);
       s.seeHowMuch(s.people[i], region);
       s.people[i].plain = s.choices[i].sure && region.visible_share >= kPlain;
-      refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, region.mask);
-      s.summarise(depth, camera, region);
+      const PixelBox box = refineMask(depth, camera, s.cloud, s.finder.labels(), s.selected, limits, region.mask);
+      summarise(depth, camera, box, region);
     }
   }
   s.rememberPeople();
