@@ -60,6 +60,7 @@ const Actor& Tracker::actor(int person) const {
 
 void Tracker::reset() {
   for (const auto& person : impl_->people) person->memory.forget(std::nullopt);
+  impl_->returning.forget();
 }
 
 void Tracker::lockOn(const Eigen::Vector3d& p_camera, int person) {
@@ -83,6 +84,7 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame) {
 
   // (0) who is where
   const Segmentation& seen = t.scene.segment(frame, t.expected);
+  t.returning.assign(t.expected, seen, frame.depth);
   if (const auto turn = t.scene.world.observe(seen)) t.turnWorld(*turn, frame);
   clock.lap(&StageTimes::segment);
 
@@ -90,14 +92,17 @@ const TrackedFrame& Tracker::process(const DepthFrame& frame) {
   for (std::size_t i = 0; i < t.people.size(); ++i) {
     Person& person = *t.people[i];
     if (i > 0) clock.follow(person.out.ms);
-    person.track(frame, seen.people[i], t.scene.world, clock);
+    person.track(frame, seen.people[t.returning.placeOf(i)], t.scene.world, clock);
+    if (person.out.state == TrackState::Tracking) t.returning.observe(i, seen, frame.depth);
   }
   return t.people.front()->out;
 }
 
 Tracker::Impl::Impl(const Models& models, const CameraModel& camera, const TrackerConfig& config,
                     const std::optional<Actor>& given)
-    : scene(models, camera, config), expected(static_cast<std::size_t>(config.people)) {
+    : scene(models, camera, config),
+      returning(static_cast<std::size_t>(config.people), camera),
+      expected(static_cast<std::size_t>(config.people)) {
   for (int number = 1; number <= config.people; ++number) {
     people.push_back(std::make_unique<Person>(number, models, camera, config, number == 1 ? given : std::nullopt));
     found.push_back(&people.back()->out);
@@ -112,7 +117,9 @@ Person& Tracker::Impl::person(int number) const {
 }
 
 void Tracker::Impl::predict(const DepthFrame& frame) {
-  for (std::size_t i = 0; i < people.size(); ++i) expected[i] = people[i]->predict(frame, scene.world).actor;
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    expected[returning.placeOf(i)] = people[i]->predict(frame, scene.world).actor;
+  }
 }
 
 void Tracker::Impl::turnWorld(const Eigen::Matrix3d& R_new_before, const DepthFrame& frame) {

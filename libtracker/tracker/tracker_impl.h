@@ -4,6 +4,7 @@
 
 #include "depthmocap/tracker.h"
 #include "libtracker/tracker/person.h"
+#include "libtracker/tracker/returning_people.h"
 #include "libtracker/tracker/scene_observer.h"
 
 namespace depthmocap {
@@ -17,8 +18,9 @@ struct Tracker::Impl {
   [[nodiscard]] Person& person(int number) const;  // throws Error where there is no such person
 
   SceneObserver scene;
+  ReturningPeople returning;
   std::vector<std::unique_ptr<Person>> people;
-  ExpectedPeople expected;                 // of the present frame, one per person
+  ExpectedPeople expected;                 // of the present frame, by place in the scene
   std::vector<const TrackedFrame*> found;  // of the present frame, one per person
 };
 

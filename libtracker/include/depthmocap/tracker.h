@@ -16,8 +16,8 @@ namespace depthmocap {
 struct TrackerConfig;
 
 // Tracks one actor, or several people, through the frames of one camera (Su, Chai, Xia 2016; docs/architecture.md).
-// People have numbers from 1 on. A number stays with its person through crossing, touching and hiding, and is free
-// again once the person has been lost for TrackPolicy::absent_s; who comes then gets the lowest free number.
+// People have numbers from 1 on that stay through crossing, touching and hiding. A number is free once its person has
+// been lost for TrackPolicy::absent_s; who comes then gets that of the one he is like, else one that nobody had.
 // Deterministic: the same frames give the same results for any number of threads. Not thread-safe.
 class DEPTHMOCAP_API Tracker {
  public:
