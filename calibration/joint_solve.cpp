@@ -9,7 +9,8 @@
 
 #include "calibration/pose_cost.h"
 #include "libtracker/core/check.h"
-#include "libtracker/match/most_likely_point.h"
+#include "libtracker/match/lorentzian_weight.h"
+#include "libtracker/match/part_points.h"
 
 namespace depthmocap {
 namespace {
@@ -117,29 +118,36 @@ struct PlacedPoint {
   Eigen::Vector3f p_world = Eigen::Vector3f::Zero();
   Eigen::Vector3f n_world = Eigen::Vector3f::Zero();
 };
-using PlacedParts = std::array<std::vector<PlacedPoint>, kPartCount>;
+struct PlacedTemplate {
+  std::array<std::vector<PlacedPoint>, kPartCount> parts;
+  PartPoints points;  // the same, for the search
+};
 
 // The template's points in one pose, those that face the camera.
-PlacedParts place(const BodyTemplate& body, const ShapeVector& shape, const ForwardKinematics& fk) {
-  PlacedParts placed;
+PlacedTemplate place(const BodyTemplate& body, const ShapeVector& shape, const ForwardKinematics& fk) {
+  PlacedTemplate placed;
   for (const BodyTemplate::Point& point : body.points()) {
     const Vector3d p = fk.position({point.bone, body.place(point, shape)});
     const Vector3d n = fk.R_world_bone(point.bone) * body.normal(point, shape);
     if (n.dot(p) >= 0) continue;
-    placed[static_cast<std::size_t>(partIndex(point.part))].push_back({&point, p.cast<float>(), n.cast<float>()});
+    const auto part = static_cast<std::size_t>(partIndex(point.part));
+    placed.parts[part].push_back({&point, p.cast<float>(), n.cast<float>()});
+    placed.points.add(part, p.cast<float>());
   }
+  placed.points.finish();
   return placed;
 }
 
-void matchCloud(const PlacedParts& placed, const std::vector<CloudPoint>& cloud, std::vector<CloudMatch>& matches) {
+void matchCloud(const PlacedTemplate& placed, const std::vector<CloudPoint>& cloud, std::vector<CloudMatch>& matches) {
   matches.clear();
-  constexpr PointLikelihood kLikelihood{kNearness_m, kReach_m, kPartDoubt};
+  constexpr PointLikelihood kLikelihood{kNearness_m, kReach_m};
   for (const CloudPoint& sample : cloud) {
-    const PlacedPoint* best = mostLikelyPoint(placed, sample.p_world, sample.probability, kLikelihood);
-    if (best == nullptr) continue;
-    const Vector3d n = best->n_world.cast<double>();
-    const double off = n.dot((best->p_world - sample.p_world).cast<double>());
-    matches.push_back({best->model, sample.p_world.cast<double>(), n, lorentzianWeight(off, kLorentzian_m)});
+    const auto found = placed.points.find(sample.p_world, PartDoubts(sample.probability, kPartDoubt), kLikelihood);
+    if (!found) continue;
+    const PlacedPoint& best = placed.parts[found->part][found->index];
+    const Vector3d n = best.n_world.cast<double>();
+    const double off = n.dot((best.p_world - sample.p_world).cast<double>());
+    matches.push_back({best.model, sample.p_world.cast<double>(), n, lorentzianWeight(off, kLorentzian_m)});
   }
 }
 
@@ -181,7 +189,7 @@ class JointProblem {
   void match() {
     for (std::size_t t = 0; t < observations_.size(); ++t) {
       fk_.update(makeSkeleton(boneLengths(shape_)), poses_[t]);
-      const PlacedParts placed = place(body_, shape_, fk_);
+      const PlacedTemplate placed = place(body_, shape_, fk_);
       matchCloud(placed, observations_[t].cloud, matches_[t].cloud);
       matchEnds(body_, shape_, fk_, observations_[t].ends, matches_[t].ends);
     }

@@ -1,7 +1,9 @@
 #include "libtracker/classify/label_image.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include "libtracker/core/check.h"
@@ -10,6 +12,17 @@ namespace depthmocap {
 namespace {
 
 constexpr int kFilled = 0x80;  // marks labels that were copied, while the copying goes on
+
+constexpr int kWord = 8;  // [px] looked at together
+
+// Whether none of the next kWord pixels of a mask's row, which has `width`, is set.
+bool nothingFrom(const std::uint8_t* row, int x, int width) {
+  if (x + kWord > width) return false;
+  std::uint64_t word = 0;
+  static_assert(sizeof word == kWord);
+  std::memcpy(&word, row + x, sizeof word);
+  return word == 0;
+}
 
 // The label of the classified pixel nearest to (x, y), searched in growing squares of the grid of classified pixels.
 std::uint8_t nearestLabel(const PartImage& labels, int stride, int x, int y) {
@@ -27,12 +40,14 @@ std::uint8_t nearestLabel(const PartImage& labels, int stride, int x, int y) {
     best = distance;
     label = found;
   };
-  for (int ring = 0; ring < std::max(columns, rows); ++ring) {
+  visit(column, row);
+  if (label != 0) return label;  // no other pixel of the grid is nearer
+  for (int ring = 1; ring < std::max(columns, rows); ++ring) {
     // Every pixel of this ring lies at least so far away from (x, y).
     const int nearest = std::max(0, ring * stride - stride / 2);
     if (nearest * nearest >= best) break;
     for (int j = row - ring; j <= row + ring; ++j) {
-      const int step = std::abs(j - row) == ring || ring == 0 ? 1 : 2 * ring;
+      const int step = std::abs(j - row) == ring ? 1 : 2 * ring;
       for (int i = column - ring; i <= column + ring; i += step) visit(i, j);
     }
   }
@@ -54,7 +69,12 @@ void labelImage(const ClassifiedPixels& pixels, const MaskImage& mask, PartImage
   }
   if (pixels.pixels.empty()) return;
   for (int y = 0; y < mask.height; ++y) {
+    const std::uint8_t* row = &mask.at(0, y);
     for (int x = 0; x < mask.width; ++x) {
+      if (nothingFrom(row, x, mask.width)) {
+        x += kWord - 1;
+        continue;
+      }
       if (mask.at(x, y) == 0 || labels.at(x, y) != 0) continue;
       labels.at(x, y) = static_cast<std::uint8_t>(nearestLabel(labels, pixels.stride, x, y) | kFilled);
     }

@@ -15,6 +15,7 @@ void PlacedSurface::place(const SurfaceModel& surface, double scale, const Forwa
     t[b] = fk.origin(static_cast<Bone>(b)).cast<float>();
   }
   const auto size = static_cast<float>(scale);
+  points.clear();
   for (std::size_t part = 0; part < kPartCount; ++part) {
     parts[part].clear();
     for (const SurfaceModel::Point& point : surface.parts[part]) {
@@ -22,9 +23,12 @@ void PlacedSurface::place(const SurfaceModel& surface, double scale, const Forwa
       const Eigen::Vector3f p_bone = size * point.p_bone;
       const Eigen::Vector3f p = R[b] * p_bone + t[b];
       const Eigen::Vector3f n = R[b] * point.n_bone;
-      if (-n.dot(p) > kMinFacing * p.norm()) parts[part].push_back({p, n, {point.bone, p_bone.cast<double>()}});
+      if (-n.dot(p) <= kMinFacing * p.norm()) continue;
+      parts[part].push_back({p, n, {point.bone, p_bone.cast<double>()}});
+      points.add(part, p);
     }
   }
+  points.finish();
 }
 
 }  // namespace depthmocap

@@ -5,6 +5,7 @@
 
 #include "depthmocap/parts.h"
 #include "depthmocap/surface_model.h"
+#include "libtracker/match/part_points.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
@@ -18,6 +19,7 @@ struct PlacedSurface {
     BonePoint model;          // [m] the same point on its bone, at the actor's size
   };
   std::array<std::vector<Point>, kPartCount> parts;  // index = partIndex(part)
+  PartPoints points;                                 // the same, for the search
 
   // `fk`: the pose; `scale`: size of the actor over the size of the surface model.
   void place(const SurfaceModel& surface, double scale, const ForwardKinematics& fk);

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "depthmocap/image.h"
 
@@ -14,15 +15,17 @@ class Silhouette {
 
   // `mask`: the actor's pixels.
   void observe(const MaskImage& mask);
-  [[nodiscard]] bool empty() const { return empty_; }
+  [[nodiscard]] bool empty() const { return first_column_ > last_column_; }
   // The actor's pixel that is nearest to (u, v), to about kStep pixels; (u, v) in the image. Not if empty().
   [[nodiscard]] Eigen::Vector2i nearest(int u, int v) const;
 
  private:
-  void take(int x, int y, int from_x, int from_y);
+  static constexpr std::int16_t kNone = -1;
+  void fillColumn(int x);
 
-  bool empty_ = true;
-  Image<Eigen::Vector2i> nearest_;  // [cells] of each cell
+  Image<std::int16_t> nearest_row_;  // [cells] for each cell, of the actor's cells in its column; kNone: none
+  int first_column_ = 0;             // [cells] the actor's
+  int last_column_ = -1;
 };
 
 }  // namespace depthmocap

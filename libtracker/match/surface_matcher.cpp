@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "depthmocap/error.h"
-#include "libtracker/match/most_likely_point.h"
+#include "libtracker/match/lorentzian_weight.h"
 
 namespace depthmocap {
 std::vector<ConfigField> SurfaceMatchConfig::fields() {
@@ -24,20 +24,27 @@ SurfaceMatcher::SurfaceMatcher(const SurfaceMatchConfig& config) : config_(confi
   config_.validate();
 }
 
-void SurfaceMatcher::match(const PlacedSurface& placed, const std::vector<SurfaceSample>& samples,
-                           SurfaceMatches& matches) const {
-  matches.clear();
-  const PointLikelihood likelihood{config_.match_sigma_m, config_.max_distance_m, config_.min_probability};
+void SurfaceMatcher::observe(const std::vector<SurfaceSample>& samples) {
+  samples_.clear();
   const std::size_t count = std::min<std::size_t>(samples.size(), static_cast<std::size_t>(config_.max_matches));
   for (std::size_t i = 0; i < count; ++i) {
     const SurfaceSample& sample = samples[i * samples.size() / count];
-    const PlacedSurface::Point* nearest = mostLikelyPoint(placed.parts, sample.p_world, sample.probability, likelihood);
-    if (nearest == nullptr) continue;
+    samples_.push_back({sample.p_world, {sample.probability, config_.min_probability}});
+  }
+}
+
+void SurfaceMatcher::match(const PlacedSurface& placed, SurfaceMatches& matches) const {
+  matches.clear();
+  const PointLikelihood likelihood{config_.match_sigma_m, config_.max_distance_m};
+  for (const Sample& sample : samples_) {
+    const auto found = placed.points.find(sample.p_world, sample.doubts, likelihood);
+    if (!found) continue;
+    const PlacedSurface::Point& nearest = placed.parts[found->part][found->index];
     SurfaceMatch match;
-    match.model = nearest->model;
+    match.model = nearest.model;
     match.p_world = sample.p_world.cast<double>();
-    match.n_world = nearest->n_world.cast<double>();
-    const double off = match.n_world.dot((nearest->p_world - sample.p_world).cast<double>());
+    match.n_world = nearest.n_world.cast<double>();
+    const double off = match.n_world.dot((nearest.p_world - sample.p_world).cast<double>());
     match.weight = lorentzianWeight(off, config_.sigma_m);
     matches.push_back(match);
   }

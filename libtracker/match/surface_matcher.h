@@ -32,11 +32,18 @@ class SurfaceMatcher {
  public:
   explicit SurfaceMatcher(const SurfaceMatchConfig& config);
 
-  // At most max_matches of the samples are looked at, spread evenly.
-  void match(const PlacedSurface& placed, const std::vector<SurfaceSample>& samples, SurfaceMatches& matches) const;
+  // The frame. At most max_matches of the samples are looked at, spread evenly.
+  void observe(const std::vector<SurfaceSample>& samples);
+  void match(const PlacedSurface& placed, SurfaceMatches& matches) const;
 
  private:
+  struct Sample {
+    Eigen::Vector3f p_world;  // [m]
+    PartDoubts doubts;
+  };
+
   SurfaceMatchConfig config_;
+  std::vector<Sample> samples_;
 };
 
 }  // namespace depthmocap

@@ -16,25 +16,25 @@ Matrix3d skew(const Vector3d& v) {
   return m;
 }
 
-// Rodrigues' formula, with the series near zero.
-Matrix3d expRotation(const Vector3d& w) {
-  const double theta2 = w.squaredNorm();
-  const double theta = std::sqrt(theta2);
-  const double a = theta < 1e-4 ? 1.0 - theta2 / 6.0 : std::sin(theta) / theta;
-  const double b = theta < 1e-4 ? 0.5 - theta2 / 24.0 : (1.0 - std::cos(theta)) / theta2;
-  const Matrix3d K = skew(w);
-  return Matrix3d::Identity() + a * K + b * K * K;
-}
+// A rotation vector's rotation exp(w) by Rodrigues' formula, and the left Jacobian of SO(3), d exp(w) = [J dw]x exp(w);
+// with the series near zero.
+struct Exponential {
+  Matrix3d R;
+  Matrix3d J;
 
-// Left Jacobian of SO(3): d exp(w) = [J dw]x exp(w).
-Matrix3d leftJacobian(const Vector3d& w) {
-  const double theta2 = w.squaredNorm();
-  const double theta = std::sqrt(theta2);
-  const double b = theta < 1e-4 ? 0.5 - theta2 / 24.0 : (1.0 - std::cos(theta)) / theta2;
-  const double c = theta < 1e-3 ? 1.0 / 6.0 - theta2 / 120.0 : (theta - std::sin(theta)) / (theta2 * theta);
-  const Matrix3d K = skew(w);
-  return Matrix3d::Identity() + b * K + c * K * K;
-}
+  explicit Exponential(const Vector3d& w) {
+    const double theta2 = w.squaredNorm();
+    const double theta = std::sqrt(theta2);
+    const double sine = std::sin(theta);
+    const double a = theta < 1e-4 ? 1.0 - theta2 / 6.0 : sine / theta;
+    const double b = theta < 1e-4 ? 0.5 - theta2 / 24.0 : (1.0 - std::cos(theta)) / theta2;
+    const double c = theta < 1e-3 ? 1.0 / 6.0 - theta2 / 120.0 : (theta - sine) / (theta2 * theta);
+    const Matrix3d K = skew(w);
+    const Matrix3d K2 = w * w.transpose() - theta2 * Matrix3d::Identity();  // K K
+    R = Matrix3d::Identity() + a * K + b * K2;
+    J = Matrix3d::Identity() + b * K + c * K2;
+  }
+};
 
 // A bone's local rotation and, per DoF, the axis a_i with d R / d q_i = [a_i]x R, in the parent's frame.
 struct Local {
@@ -44,8 +44,7 @@ struct Local {
 
 Local swingThenTwist(const Vector3d& swing, int twist_axis, double twist, const std::array<int, 3>& axis_of_dof) {
   Local local;
-  const Matrix3d S = expRotation(swing);
-  const Matrix3d J = leftJacobian(swing);
+  const auto [S, J] = Exponential(swing);
   local.R = S * Eigen::AngleAxisd(twist, Vector3d::Unit(twist_axis)).toRotationMatrix();
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = axis_of_dof[i];
@@ -55,8 +54,8 @@ Local swingThenTwist(const Vector3d& swing, int twist_axis, double twist, const 
 }
 
 Local pureSwing(const Vector3d& swing, int first_axis, int second_axis) {
-  const Matrix3d J = leftJacobian(swing);
-  return {expRotation(swing), {J.col(first_axis), J.col(second_axis), Vector3d::Zero()}};
+  const auto [R, J] = Exponential(swing);
+  return {R, {J.col(first_axis), J.col(second_axis), Vector3d::Zero()}};
 }
 
 Local hinge(double angle, int axis) {
@@ -67,8 +66,8 @@ Local hinge(double angle, int axis) {
 Local headingTilt(const Vector3d& q) {
   const Matrix3d H = Eigen::AngleAxisd(q.y(), Vector3d::UnitY()).toRotationMatrix();
   const Vector3d tilt(q.x(), 0, q.z());
-  const Matrix3d J = leftJacobian(tilt);
-  return {H * expRotation(tilt), {H * J.col(0), Vector3d::UnitY(), H * J.col(2)}};
+  const auto [R, J] = Exponential(tilt);
+  return {H * R, {H * J.col(0), Vector3d::UnitY(), H * J.col(2)}};
 }
 
 Local localOf(Bone bone, const Pose& q) {
@@ -113,7 +112,7 @@ double angleAbout(const Matrix3d& R, int axis) {
 // R = exp(swing) * R_axis(twist).
 void decompose(const Matrix3d& R, int axis, Vector3d& swing, double& twist) {
   swing = swingTo(Vector3d::Unit(axis), R.col(axis));
-  twist = angleAbout(expRotation(swing).transpose() * R, axis);
+  twist = angleAbout(Exponential(swing).R.transpose() * R, axis);
 }
 
 }  // namespace

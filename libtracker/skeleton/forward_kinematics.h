@@ -25,14 +25,16 @@ class ForwardKinematics {
   [[nodiscard]] Eigen::Vector3d position(const BonePoint& point) const {
     return R_world_bone(point.bone) * point.p_bone + origin(point.bone);
   }
+  // Instantaneous rotation axis [world] of a rotational DoF, which turns its bone and all behind it about the bone's
+  // origin: d R_world_bone / d q_i = [axis]x R_world_bone.
+  [[nodiscard]] const Eigen::Vector3d& axis(int dof) const { return axis_world_[static_cast<std::size_t>(dof)]; }
   // Analytic d position / d q. Columns of DoFs that do not move the point are zero.
   void jacobian(const BonePoint& point, PointJacobian& J) const;
 
  private:
   std::array<Eigen::Matrix3d, kBoneCount> R_world_;
   std::array<Eigen::Vector3d, kBoneCount> p_world_;
-  // Instantaneous rotation axis in the world of each rotational DoF: d R_world_bone / d q_i = [axis_i]x R_world_bone.
-  std::array<Eigen::Vector3d, kDofCount> axis_world_;
+  std::array<Eigen::Vector3d, kDofCount> axis_world_;  // see axis(); those of translations are undefined
 };
 
 // Local rotation of a bone in its parent for q, and the inverse: the bone's DoFs in q from a rotation.

@@ -4,22 +4,25 @@
 
 namespace depthmocap {
 
-void ContactTerm::evaluate(const Pose& q, ResidualRows r, JacobianRows* J) {
-  r.setZero();
-  if (J != nullptr) J->setZero();
-  if (contacts_ == nullptr) return;
-  fk_.update(skeleton_, q);
-  for (int i = 0; i < kFootPointCount; ++i) {
-    const FootContact& contact = (*contacts_)[static_cast<std::size_t>(i)];
+double ContactTerm::energy(const ForwardKinematics& fk) const {
+  if (contacts_ == nullptr) return 0;
+  double sum = 0;
+  for (const FootContact& contact : *contacts_) {
     if (contact.weight <= 0) continue;
-    const RobustPull pull =
-        robustPull(fk_.position(contact.point) - contact.p_world, sigma_m_, lambda_ * contact.weight);
-    r.segment<3>(3 * i) = pull.r;
-    if (J == nullptr) continue;
-    PointJacobian J_point;
-    fk_.jacobian(contact.point, J_point);
-    J->middleRows<3>(3 * i) = pull.dr_de.lazyProduct(J_point);
-    J->row(kResidualRows + i) = pull.along.lazyProduct(J_point);
+    const Eigen::Vector3d e = fk.position(contact.point) - contact.p_world;
+    sum += robustPull(e.squaredNorm(), sigma_m_, lambda_ * contact.weight).energy;
+  }
+  return sum;
+}
+
+void ContactTerm::addTo(const ForwardKinematics& fk, TwistEquations& equations) const {
+  if (contacts_ == nullptr) return;
+  for (const FootContact& contact : *contacts_) {
+    if (contact.weight <= 0) continue;
+    const Eigen::Vector3d p = fk.position(contact.point);
+    const Eigen::Vector3d e = p - contact.p_world;
+    const RobustPull pull = robustPull(e.squaredNorm(), sigma_m_, lambda_ * contact.weight);
+    equations.addPoint(contact.point.bone, p, e, pull.k);
   }
 }
 

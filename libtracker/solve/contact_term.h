@@ -3,7 +3,7 @@
 #include <array>
 
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "libtracker/solve/residual_block.h"
+#include "libtracker/solve/twist_equations.h"
 
 namespace depthmocap {
 
@@ -20,25 +20,19 @@ using FootContacts = std::array<FootContact, kFootPointCount>;
 
 // Beyond the paper: what stands on the floor stays where it is. lambda * sum over contacts of weight * rho(|f(q) - p|),
 // rho the Lorentzian: a contact that is wrong, or that the image contradicts, is given up.
-//
-// Rows: three per contact, then one per contact for its curvature (see RobustPull).
 class ContactTerm {
  public:
-  static constexpr int kResidualRows = 3 * kFootPointCount;
-  static constexpr int kRows = kResidualRows + kFootPointCount;
+  // `contacts` may be nullptr: no term; they must outlive the term.
+  ContactTerm(const FootContacts* contacts, double lambda, double sigma_m)
+      : contacts_(contacts), lambda_(lambda), sigma_m_(sigma_m) {}
 
-  // `contacts` may be nullptr: no term. The references must outlive the term.
-  ContactTerm(const Skeleton& skeleton, const FootContacts* contacts, double lambda, double sigma_m)
-      : skeleton_(skeleton), contacts_(contacts), lambda_(lambda), sigma_m_(sigma_m) {}
-
-  void evaluate(const Pose& q, ResidualRows r, JacobianRows* J);
+  [[nodiscard]] double energy(const ForwardKinematics& fk) const;
+  void addTo(const ForwardKinematics& fk, TwistEquations& equations) const;
 
  private:
-  const Skeleton& skeleton_;
   const FootContacts* contacts_;
   double lambda_;
   double sigma_m_;
-  ForwardKinematics fk_;
 };
 
 }  // namespace depthmocap

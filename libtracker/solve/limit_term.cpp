@@ -1,22 +1,35 @@
 #include "libtracker/solve/limit_term.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "libtracker/skeleton/joint_limits.h"
 
 namespace depthmocap {
+namespace {
 
-LimitTerm::LimitTerm(double lambda) : weight_(std::sqrt(lambda)) {}
-
-void LimitTerm::evaluate(const Pose& q, ResidualRows r, JacobianRows* J) const {
+// [rad] beyond the range; 0 within.
+double excessOf(const Pose& q, int dof) {
   const JointLimits& limits = jointLimits();
-  if (J != nullptr) J->setZero();
-  for (int row = 0; row < kRows; ++row) {
-    const int dof = kFirstBodyDof + row;
-    const double excess = q[dof] - std::clamp(q[dof], limits.lower[dof], limits.upper[dof]);
-    r[row] = weight_ * excess;
-    if (J != nullptr && excess != 0) (*J)(row, dof) = weight_;
+  return q[dof] - std::clamp(q[dof], limits.lower[dof], limits.upper[dof]);
+}
+
+}  // namespace
+
+double LimitTerm::energy(const Pose& q) const {
+  double sum = 0;
+  for (int dof = kFirstBodyDof; dof < kDofCount; ++dof) {
+    const double excess = excessOf(q, dof);
+    sum += excess * excess;
+  }
+  return lambda_ * sum;
+}
+
+void LimitTerm::addTo(const Pose& q, NormalEquations& equations) const {
+  for (int dof = kFirstBodyDof; dof < kDofCount; ++dof) {
+    const double excess = excessOf(q, dof);
+    if (excess == 0) continue;
+    equations.g[dof] += lambda_ * excess;
+    equations.A(dof, dof) += lambda_;
   }
 }
 

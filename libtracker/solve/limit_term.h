@@ -1,19 +1,19 @@
 #pragma once
-#include "libtracker/solve/residual_block.h"
+#include "libtracker/solve/normal_equations.h"
 
 namespace depthmocap {
 
 // Joint limits, beyond the paper: lambda times the squared excess [rad^2] of each DoF over its anatomical range
-// (skeleton/joint_limits.h). One row a body DoF; zero, with a zero Jacobian, within the range.
+// (skeleton/joint_limits.h), but for those of the root.
 class LimitTerm {
  public:
-  static constexpr int kRows = kDofCount - kFirstBodyDof;
+  explicit LimitTerm(double lambda) : lambda_(lambda) {}
 
-  explicit LimitTerm(double lambda);
-  void evaluate(const Pose& q, ResidualRows r, JacobianRows* J) const;
+  [[nodiscard]] double energy(const Pose& q) const;
+  void addTo(const Pose& q, NormalEquations& equations) const;
 
  private:
-  double weight_;
+  double lambda_;
 };
 
 }  // namespace depthmocap

@@ -1,32 +1,38 @@
 #include "libtracker/solve/map_solver.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <ceres/ceres.h>
-#include <ceres/tiny_solver.h>
-#include <fmt/format.h>
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
-#include "libtracker/solve/map_function.h"
+#include "libtracker/solve/map_energy.h"
 
 namespace depthmocap {
 namespace {
 
-// MapFunction as a cost function of the general solver, which wants its Jacobian row-major.
-class MapCost : public ceres::SizedCostFunction<MapFunction::NUM_RESIDUALS, kDofCount> {
+constexpr double kFirstDamping = 1e-4;    // times the diagonal: the first step is nearly that of Gauss-Newton
+constexpr double kLeastCurvature = 1e-6;  // damps a DoF that nothing holds
+constexpr double kFlat = 1e-10;           // [energy/m, energy/rad] the largest slope of a minimum
+constexpr double kShortStep = 1e-8;       // share of |q|: no step shorter than this is tried again
+
+// For the general solver.
+class EnergyFunction : public ceres::FirstOrderFunction {
  public:
-  explicit MapCost(const MapFunction& function) : function_(function) {}
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    using Matrix = Eigen::Matrix<double, MapFunction::NUM_RESIDUALS, kDofCount>;
-    Matrix J;
-    if (!function_(parameters[0], residuals, wants_jacobian ? J.data() : nullptr)) return false;
-    using RowMajor = Eigen::Matrix<double, MapFunction::NUM_RESIDUALS, kDofCount, Eigen::RowMajor>;
-    if (wants_jacobian) Eigen::Map<RowMajor>{jacobians[0]} = J;
+  explicit EnergyFunction(MapEnergy& energy) : energy_(energy) {}
+  [[nodiscard]] int NumParameters() const override { return kDofCount; }
+  bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
+    const Pose q = Eigen::Map<const Pose>(parameters);
+    NormalEquations equations;
+    energy_.expand(energy_.at(q), equations);
+    *cost = equations.energy;
+    if (gradient != nullptr) Eigen::Map<Pose>{gradient} = 2.0 * equations.g;
     return true;
   }
 
  private:
-  const MapFunction& function_;
+  MapEnergy& energy_;
 };
 
 }  // namespace
@@ -34,6 +40,7 @@ class MapCost : public ceres::SizedCostFunction<MapFunction::NUM_RESIDUALS, kDof
 std::vector<ConfigField> MapConfig::fields() {
   return {
       {"lambda_prior", &lambda_prior, "", atLeast(0), "Weight of the prior in equation (5), lambda1"},
+      {"prior_freedom", &prior_freedom, "", atLeast(0), "Degrees of freedom of the prior as a Student distribution"},
       {"lambda_marker", &lambda_marker, "", above(0), "Weight of the markers in equation (5), lambda2"},
       {"lambda_smooth", &lambda_smooth, "", atLeast(0), "Weight of smoothness in equation (5), lambda3"},
       {"lambda_limit", &lambda_limit, "", atLeast(0), "Weight of the joint limits"},
@@ -52,55 +59,67 @@ void MapConfig::validate() const {
   checkFieldsOf("MapConfig", *this);
 }
 
-struct MapSolver::Impl {
-  MapConfig config;
-  ceres::TinySolver<MapFunction> solver;
-};
-
-MapSolver::MapSolver(const MapConfig& config) : impl_(std::make_unique<Impl>()) {
-  config.validate();
-  impl_->config = config;
+MapSolver::MapSolver(const MapConfig& config) : config_(config) {
+  config_.validate();
 }
-MapSolver::~MapSolver() = default;
-MapSolver::MapSolver(MapSolver&&) noexcept = default;
 
+// Levenberg-Marquardt with the damping of Nielsen 1999, on the diagonal of A (Marquardt 1963).
 MapSummary MapSolver::solve(const MapInput& input, Pose& q) {
   DMC_CHECK(q.allFinite());
-  const MapFunction function(input, impl_->config);
-  auto& solver = impl_->solver;
-  // TinySolver counts the evaluation at the start as its first iteration.
-  solver.options.max_num_iterations = impl_->config.max_iterations + 1;
-  solver.options.function_tolerance = impl_->config.energy_tolerance;
-  solver.Solve(function, &q);
-  q[kRootRy] = wrappedAngle(q[kRootRy]);
+  MapEnergy energy(input, config_);
   MapSummary summary;
-  summary.converged = solver.summary.status != ceres::TinySolver<MapFunction>::HIT_MAX_ITERATIONS;
-  summary.iterations = std::min(solver.summary.iterations, impl_->config.max_iterations);
-  function.summarise(q, summary);
+  energy.expand(energy.at(q), equations_);
+  double mu = kFirstDamping;
+  double growth = 2.0;
+  while (!summary.converged && summary.iterations < config_.max_iterations) {
+    if (equations_.g.cwiseAbs().maxCoeff() < kFlat) {
+      summary.converged = true;
+      break;
+    }
+    ++summary.iterations;
+    const Pose damping = mu * equations_.A.diagonal().cwiseMax(kLeastCurvature);
+    ldlt_.compute(PoseMatrix(equations_.A + damping.asDiagonal().toDenseMatrix()));
+    const Pose step = ldlt_.solve(-equations_.g);
+    const Pose q_new = q + step;
+    const double energy_new = energy.at(q_new);
+    const double gain = equations_.energy - energy_new;
+    if (!(gain > 0)) {
+      summary.converged = step.norm() < kShortStep * (q.norm() + kShortStep);
+      mu *= growth;
+      growth *= 2.0;
+      continue;
+    }
+    q = q_new;
+    summary.converged = gain < config_.energy_tolerance;
+    if (summary.converged) break;
+    // What the model promised: its decrease for the damped step.
+    const double promised = step.dot(damping.cwiseProduct(step)) - step.dot(equations_.g);
+    mu *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain / promised - 1.0, 3));
+    growth = 2.0;
+    energy.expand(energy_new, equations_);
+  }
+  q[kRootRy] = wrappedAngle(q[kRootRy]);
+  energy.summarise(q, summary);
   return summary;
 }
 
 MapSummary MapSolver::solveReference(const MapInput& input, Pose& q) const {
   DMC_CHECK(q.allFinite());
-  const MapFunction function(input, impl_->config);
-  MapCost cost(function);
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  problem.AddResidualBlock(&cost, nullptr, q.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
+  MapEnergy energy(input, config_);
+  const ceres::GradientProblem problem(new EnergyFunction(energy));  // takes it over
+  ceres::GradientProblemSolver::Options options;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 500;
-  options.function_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-10;
-  ceres::Solver::Summary report;
-  ceres::Solve(options, &problem, &report);
+  options.max_num_iterations = 5000;
+  options.function_tolerance = 1e-15;
+  options.gradient_tolerance = 1e-9;
+  options.parameter_tolerance = 1e-12;
+  ceres::GradientProblemSolver::Summary report;
+  ceres::Solve(options, problem, q.data(), &report);
   q[kRootRy] = wrappedAngle(q[kRootRy]);
   MapSummary summary;
   summary.converged = report.termination_type == ceres::CONVERGENCE;
   summary.iterations = static_cast<int>(report.iterations.size()) - 1;
-  function.summarise(q, summary);
+  energy.summarise(q, summary);
   return summary;
 }
 

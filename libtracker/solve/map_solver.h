@@ -1,5 +1,5 @@
 #pragma once
-#include <memory>
+#include <Eigen/Cholesky>
 #include <vector>
 
 #include "depthmocap/marker_set.h"
@@ -9,12 +9,14 @@
 #include "libtracker/skeleton/skeleton.h"
 #include "libtracker/skeleton/surface_match.h"
 #include "libtracker/solve/contact_term.h"
+#include "libtracker/solve/normal_equations.h"
 
 namespace depthmocap {
 
 // Weights and limits of the MAP solve, equation (5). Energies mix m^2 and rad^2 as the paper does.
 struct MapConfig {
   double lambda_prior = 0.2;       // (>= 0) lambda1
+  double prior_freedom = 0.0;      // (>= 0) of the prior as a Student distribution, beyond the paper; 0 = a Gaussian
   double lambda_marker = 5.0;      // (> 0) lambda2
   double lambda_smooth = 1.0;      // (>= 0) lambda3
   double lambda_limit = 10.0;      // (>= 0) joint limits, beyond the paper; 0 = none
@@ -57,22 +59,21 @@ struct MapSummary {
   bool converged = false;   // false: max_iterations came first
 };
 
-// Minimises equation (5) by Levenberg-Marquardt (Ceres' TinySolver) with analytic Jacobians. Thread-compatible; solve()
-// does not allocate.
+// Minimises equation (5) by Levenberg-Marquardt on normal equations that are summed in the kinematic tree
+// (TwistEquations). Thread-compatible; solve() does not allocate.
 class MapSolver {
  public:
   explicit MapSolver(const MapConfig& config);  // throws as MapConfig::validate
-  ~MapSolver();
-  MapSolver(MapSolver&&) noexcept;
 
   // q: where to start, then the result; world frame, heading in (-pi, pi].
   MapSummary solve(const MapInput& input, Pose& q);
-  // The same minimum by the general ceres::Solve: slow, the reference that solve() is measured against.
+  // The same minimum by Ceres' L-BFGS, from energies and gradients alone: slow, the reference of solve().
   MapSummary solveReference(const MapInput& input, Pose& q) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  MapConfig config_;
+  NormalEquations equations_;
+  Eigen::LDLT<PoseMatrix> ldlt_;
 };
 
 }  // namespace depthmocap

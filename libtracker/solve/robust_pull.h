@@ -1,23 +1,18 @@
 #pragma once
-#include <Eigen/Core>
 
 namespace depthmocap {
 
-// A pull on a point that stands off by e [m], as rows of a least-squares problem: weight * rho(|e|), rho(e) = log(1 +
-// e^2 / (2 sigma^2)) the Lorentzian.
+// A pull on a point that stands off by e [m]: weight * rho(|e|), rho(e) = log(1 + e^2 / (2 sigma^2)) the Lorentzian.
 //
-// r = sqrt(weight * rho(|e|) / |e|^2) e, so that |r|^2 is exactly that. Its Jacobian lacks curvature: sqrt(rho) is
-// concave, and Gauss-Newton on r alone overshoots a point that is further than sigma away (by 2.4 times at 4 sigma). A
-// row more, whose residual is always 0 and whose "Jacobian" is `along`, raises the curvature along e to rho'(|e|^2),
-// that of iteratively reweighted least squares, whose quadratic model lies above rho everywhere. Energy and gradient
-// stay exact.
+// Its quadratic model is that of iteratively reweighted least squares, k |e|^2 with k = weight * d rho / d |e|^2: the
+// gradient is exact, and the model lies above rho everywhere, so that a step never overshoots a point that is further
+// than sigma away.
 struct RobustPull {
-  Eigen::Vector3d r;
-  Eigen::Matrix3d dr_de;
-  Eigen::RowVector3d along;
+  double energy = 0;
+  double k = 0;  // [1/m^2]
 };
 
-// weight >= 0, sigma_m [m] > 0.
-RobustPull robustPull(const Eigen::Vector3d& e, double sigma_m, double weight);
+// square_m2: |e|^2 [m^2]; sigma_m [m] > 0; weight >= 0.
+RobustPull robustPull(double square_m2, double sigma_m, double weight);
 
 }  // namespace depthmocap

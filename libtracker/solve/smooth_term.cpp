@@ -13,7 +13,7 @@ double wrappedAngle(double angle) {
 
 SmoothTerm::SmoothTerm(const Pose* q_prev, const Pose* q_prev2, double velocity_gain, double lambda) {
   if (q_prev == nullptr) return;
-  weight_ = std::sqrt(lambda);
+  lambda_ = lambda;
   expected_ = *q_prev;
   if (q_prev2 == nullptr) return;
   Pose step = *q_prev - *q_prev2;
@@ -21,12 +21,15 @@ SmoothTerm::SmoothTerm(const Pose* q_prev, const Pose* q_prev2, double velocity_
   expected_ += velocity_gain * step;
 }
 
-void SmoothTerm::evaluate(const Pose& q, ResidualRows r, JacobianRows* J) const {
-  r = weight_ * (q - expected_);
-  r[kRootRy] = weight_ * wrappedAngle(q[kRootRy] - expected_[kRootRy]);
-  if (J == nullptr) return;
-  J->setZero();
-  J->diagonal().setConstant(weight_);
+Pose SmoothTerm::offset(const Pose& q) const {
+  Pose off = q - expected_;
+  off[kRootRy] = wrappedAngle(off[kRootRy]);
+  return off;
+}
+
+void SmoothTerm::addTo(const Pose& q, NormalEquations& equations) const {
+  equations.g += lambda_ * offset(q);
+  equations.A.diagonal().array() += lambda_;
 }
 
 }  // namespace depthmocap

@@ -60,10 +60,11 @@ double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor&
 void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input,
                              MapSolver& solver, Pose& q, MapSummary& summary) {
   int iterations = summary.iterations;
+  matcher_.observe(samples);
   for (int round = 0; round < rounds_; ++round) {
     fk_.update(actor.skeleton, q);
     placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
-    matcher_.match(placed_, samples, matches_);
+    matcher_.match(placed_, matches_);
     free_space_.match(placed_, matches_);
     input.surface = &matches_;
     summary = solver.solve(input, q);

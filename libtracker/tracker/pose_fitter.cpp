@@ -93,10 +93,10 @@ std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const S
   return fit;
 }
 
-void PoseFitter::judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q,
-                             MapSummary& summary) const {
+void PoseFitter::judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary) {
   if (!legs_.supposed()) return;
-  summary.rms_marker_m = MarkerTerm(actor.skeleton, actor.markers, seen_world, 1, config_.solve.sigma_m).rms(q);
+  fk_.update(actor.skeleton, q);
+  summary.rms_marker_m = MarkerTerm(actor.markers, seen_world, 1, config_.solve.sigma_m).rms(fk_);
 }
 
 double PoseFitter::energyOfImage(const MapSummary& fit) const {

@@ -51,7 +51,7 @@ class PoseFitter {
 
  private:
   // Supposed markers say nothing about how well a pose fits: its summary is to speak of those that were seen.
-  void judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary) const;
+  void judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary);
   [[nodiscard]] double searchScale(const Actor& actor) const { return actor.stature_m() / search_stature_m_; }
 
   const TrackerConfig config_;

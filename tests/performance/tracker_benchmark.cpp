@@ -105,8 +105,8 @@ void solvePose(benchmark::State& state, bool reference) {
     benchmark::DoNotOptimize(reference ? solver.solveReference(input, q) : solver.solve(input, q));
   }
 }
-BENCHMARK_CAPTURE(solvePose, tiny_solver, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(solvePose, general_solver, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solvePose, tree, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solvePose, ceres_lbfgs, true)->Unit(benchmark::kMillisecond);
 
 // The whole tracker, one iteration a frame; the paper's method beside ours.
 void trackFrame(benchmark::State& state, TrackerConfig config, int threads) {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "libtracker/solve/map_solver.h"
-#include "tests/gradient_check.h"
 #include "tests/moving_body.h"
+#include "tests/unit/solve/term_check.h"
 
 namespace depthmocap {
 namespace {
@@ -26,29 +26,12 @@ FootContacts contactsAt(const MovingBody& scene, const Pose& q) {
   return contacts;
 }
 
-Eigen::VectorXd residualOf(ContactTerm& term, const Pose& q) {
-  Eigen::VectorXd r = Eigen::VectorXd::Constant(ContactTerm::kRows, std::nan(""));
-  term.evaluate(q, r, nullptr);
-  return r;
-}
-
-TEST(ContactTerm, JacobianMatchesDifferences) {
+TEST(ContactTerm, GradientMatchesDifferences) {
   const MovingBody scene;
   const FootContacts contacts = contactsAt(scene, MovingBody::motion(1, 0.3));
-  ContactTerm term(scene.skeleton, &contacts, 5.0, kSigma_m);
-  const auto residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return residualOf(term, x).head<ContactTerm::kResidualRows>();
-  };
-  const auto jacobian = [&](const Eigen::VectorXd& x) -> Eigen::MatrixXd {
-    Eigen::VectorXd r(+ContactTerm::kRows);
-    Eigen::Matrix<double, Eigen::Dynamic, kDofCount> J(+ContactTerm::kRows, kDofCount);
-    JacobianRows rows = J;
-    term.evaluate(x, r, &rows);
-    EXPECT_TRUE(J.allFinite());
-    return J.topRows<ContactTerm::kResidualRows>();
-  };
+  const ContactTerm term(&contacts, 5.0, kSigma_m);
   for (const double t : {0.3, 0.301, 0.32, 0.6}) {
-    expectJacobianMatches(MovingBody::motion(1, t), residual, jacobian, 1e-5);
+    expectGradientMatches(term, scene.skeleton, MovingBody::motion(1, t), 1e-5);
   }
 }
 
@@ -61,18 +44,18 @@ TEST(ContactTerm, EnergyIsTheLorentzianOfThePointsThatStand) {
   contacts[1].weight = 0.25;
   contacts[2].p_world.y() += 9.0;
   contacts[2].weight = 0;
-  ContactTerm term(scene.skeleton, &contacts, 5.0, kSigma_m);
+  const ContactTerm term(&contacts, 5.0, kSigma_m);
   const auto rho = [](double e) { return std::log1p(e * e / (2 * kSigma_m * kSigma_m)); };
-  EXPECT_NEAR(residualOf(term, q).squaredNorm(), 5.0 * (rho(0.03) + 0.25 * rho(0.5)), 1e-9);
+  EXPECT_NEAR(energyOf(term, scene.skeleton, q), 5.0 * (rho(0.03) + 0.25 * rho(0.5)), 1e-9);
 }
 
 TEST(ContactTerm, IsSilentWithoutContacts) {
   const MovingBody scene;
-  ContactTerm none(scene.skeleton, nullptr, 5.0, kSigma_m);
-  EXPECT_EQ(residualOf(none, Pose::Zero()).norm(), 0);
+  const ContactTerm none(nullptr, 5.0, kSigma_m);
+  EXPECT_EQ(energyOf(none, scene.skeleton, Pose::Zero()), 0);
   const FootContacts nothing_stands;
-  ContactTerm term(scene.skeleton, &nothing_stands, 5.0, kSigma_m);
-  EXPECT_EQ(residualOf(term, Pose::Zero()).norm(), 0);
+  const ContactTerm term(&nothing_stands, 5.0, kSigma_m);
+  EXPECT_EQ(energyOf(term, scene.skeleton, Pose::Zero()), 0);
 }
 
 double ankleDistance(const MovingBody& scene, const Pose& q, const Eigen::Vector3d& p_world) {

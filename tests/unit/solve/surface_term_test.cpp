@@ -5,7 +5,7 @@
 #include "libtracker/core/random.h"
 #include "libtracker/match/surface_matcher.h"
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "tests/gradient_check.h"
+#include "tests/unit/solve/term_check.h"
 
 namespace depthmocap {
 namespace {
@@ -61,74 +61,35 @@ SurfaceMatches randomMatches(int count, Random& random) {
   return matches;
 }
 
-// One residual a match, as the term is defined.
-double plainEnergy(const Skeleton& skeleton, const SurfaceMatches& matches, double lambda, double sigma_m,
-                   const Pose& q) {
-  ForwardKinematics fk;
-  fk.update(skeleton, q);
-  double energy = 0;
-  for (const SurfaceMatch& match : matches) {
-    const double off = match.n_world.dot(fk.position(match.model) - match.p_world);
-    energy += lambda * match.weight * off * off / (2.0 * sigma_m * sigma_m);
-  }
-  return energy;
-}
-
-TEST(SurfaceTerm, EnergyIsThatOfAllMatches) {
-  Random random(6);
+TEST(SurfaceTerm, EnergyIsTheWeighedSquaredDistanceFromThePlanes) {
   const Skeleton skeleton = makeSkeleton(BoneLengths{});
-  for (const int count : {1, 17, 100, kMaxSurfaceMatches}) {
-    SurfaceMatches matches = randomMatches(count, random);
-    const Pose q = randomPose(random);
-    ForwardKinematics fk;
-    fk.update(skeleton, q);
-    for (const double noise_m : {1.0, 0.01, 1e-4}) {
-      for (SurfaceMatch& match : matches) {
-        match.p_world = fk.position(match.model) + noise_m * (match.p_world - fk.position(match.model));
-      }
-      SurfaceTerm term(skeleton, &matches, 2.0, 0.03);
-      Eigen::VectorXd r(SurfaceTerm::kRows);
-      term.evaluate(q, r, nullptr);
-      const double plain = plainEnergy(skeleton, matches, 2.0, 0.03, q);
-      EXPECT_NEAR(r.squaredNorm(), plain, 1e-6 * plain + 1e-7) << count << " matches, " << noise_m << " m";
-    }
-  }
+  SurfaceMatches matches(2);
+  matches[0] = {{Bone::Root, Eigen::Vector3d::Zero()}, {0.03, 7.0, 7.0}, Eigen::Vector3d::UnitX(), 1.0};
+  matches[1] = {{Bone::Root, {0.0, 0.0, 0.2}}, {7.0, 7.0, 0.26}, Eigen::Vector3d::UnitZ(), 0.5};
+  const SurfaceTerm term(&matches, 2.0, 0.03);
+  EXPECT_NEAR(energyOf(term, skeleton, Pose::Zero()), 2.0 * (0.5 + 0.5 * 2.0), 1e-9);
 }
 
-TEST(SurfaceTerm, JacobianMatchesDifferences) {
+TEST(SurfaceTerm, GradientMatchesDifferences) {
   Random random(5);
   const Skeleton skeleton = makeSkeleton(BoneLengths{});
   const SurfaceMatches matches = randomMatches(40, random);
-  SurfaceTerm term(skeleton, &matches, 2.0, 0.03);
-  const Eigen::VectorXd q = randomPose(random);
-  const auto residual = [&](const Eigen::VectorXd& x) {
-    Eigen::VectorXd r(SurfaceTerm::kRows);
-    term.evaluate(x, r, nullptr);
-    return r;
-  };
-  const auto jacobian = [&](const Eigen::VectorXd& x) -> Eigen::MatrixXd {
-    Eigen::Matrix<double, Eigen::Dynamic, kDofCount> J(SurfaceTerm::kRows, kDofCount);
-    Eigen::VectorXd r(SurfaceTerm::kRows);
-    JacobianRows rows = J;
-    term.evaluate(x, r, &rows);
-    return J;
-  };
-  expectJacobianMatches(q, residual, jacobian, 1e-5);
+  expectGradientMatches(SurfaceTerm(&matches, 2.0, 0.03), skeleton, randomPose(random), 1e-5);
 }
 
 TEST(SurfaceTerm, IsSilentWithoutMatches) {
   const Skeleton skeleton = makeSkeleton(BoneLengths{});
-  SurfaceTerm term(skeleton, nullptr, 2.0, 0.03);
-  Eigen::VectorXd r = Eigen::VectorXd::Ones(SurfaceTerm::kRows);
-  term.evaluate(Pose::Zero(), r, nullptr);
-  EXPECT_EQ(r.squaredNorm(), 0.0);
+  const SurfaceTerm term(nullptr, 2.0, 0.03);
+  EXPECT_EQ(energyOf(term, skeleton, Pose::Zero()), 0.0);
+  EXPECT_EQ(equationsOf(term, skeleton, Pose::Zero()).A.norm(), 0.0);
 }
 
 TEST(SurfaceMatcher, TakesThePointThatFacesTheCamera) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.match(scene.placed(), {scene.sampleAhead(0.01F)}, matches);
+  matcher.observe({scene.sampleAhead(0.01F)});
+  matcher.match(scene.placed(), matches);
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_NEAR(matches[0].model.p_bone.z(), 0.12, 1e-6);
   EXPECT_NEAR(matches[0].n_world.z(), 1.0, 1e-6);
@@ -138,7 +99,8 @@ TEST(SurfaceMatcher, LeavesOutWhatIsFarAway) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.match(scene.placed(), {scene.sampleAhead(0.5F)}, matches);
+  matcher.observe({scene.sampleAhead(0.5F)});
+  matcher.match(scene.placed(), matches);
   EXPECT_TRUE(matches.empty());
 }
 
@@ -146,7 +108,8 @@ TEST(SurfaceMatcher, WeighsADistantMatchLess) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.match(scene.placed(), {scene.sampleAhead(0.0F), scene.sampleAhead(0.1F)}, matches);
+  matcher.observe({scene.sampleAhead(0.0F), scene.sampleAhead(0.1F)});
+  matcher.match(scene.placed(), matches);
   ASSERT_EQ(matches.size(), 2U);
   EXPECT_GT(matches[0].weight, 0.99);
   EXPECT_LT(matches[1].weight, 0.5);
@@ -158,7 +121,8 @@ TEST(SurfaceMatcher, LooksAtNoMoreSamplesThanAsked) {
   config.max_matches = 5;
   SurfaceMatcher matcher{config};
   SurfaceMatches matches;
-  matcher.match(scene.placed(), std::vector<SurfaceSample>(40, scene.sampleAhead(0.0F)), matches);
+  matcher.observe(std::vector<SurfaceSample>(40, scene.sampleAhead(0.0F)));
+  matcher.match(scene.placed(), matches);
   EXPECT_EQ(matches.size(), 5U);
 }
 

@@ -7,34 +7,13 @@
 #include "libtracker/solve/marker_term.h"
 #include "libtracker/solve/prior_term.h"
 #include "libtracker/solve/smooth_term.h"
-#include "tests/gradient_check.h"
 #include "tests/moving_body.h"
+#include "tests/unit/solve/term_check.h"
 
 namespace depthmocap {
 namespace {
 
-template <typename Term>
-Eigen::VectorXd residualOf(Term& term, const Pose& q) {
-  Eigen::VectorXd r = Eigen::VectorXd::Constant(Term::kRows, std::nan(""));
-  term.evaluate(q, r, nullptr);
-  return r;
-}
-
-// Checks the first `rows` rows.
-template <typename Term>
-void expectGradient(Term& term, const Pose& q, double tolerance = 1e-6, int rows = Term::kRows) {
-  const auto residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return residualOf(term, x).head(rows); };
-  const auto jacobian = [&](const Eigen::VectorXd& x) -> Eigen::MatrixXd {
-    Eigen::VectorXd r(Term::kRows);
-    Eigen::Matrix<double, Eigen::Dynamic, kDofCount> J(static_cast<Eigen::Index>(Term::kRows), kDofCount);
-    J.setConstant(std::nan(""));
-    JacobianRows J_rows = J;
-    term.evaluate(x, r, &J_rows);
-    EXPECT_TRUE(J.allFinite());
-    return J.topRows(rows);
-  };
-  expectJacobianMatches(q, residual, jacobian, tolerance);
-}
+const Skeleton kBody = makeSkeleton(BoneLengths{});
 
 double lorentzian(double e, double sigma) {
   return std::log(1.0 + e * e / (2.0 * sigma * sigma));
@@ -46,9 +25,9 @@ TEST(MarkerTerm, GradientMatchesNearAndFarFromTheMarkers) {
   const Pose truth = MovingBody::motion(1, 0.3);
   for (const double noise_m : {1e-4, 0.01, 0.05, 0.4}) {
     const MarkerSet markers = scene.noisyMarkers(truth, noise_m, 3, random);
-    MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
-    expectGradient(term, truth, 1e-5, MarkerTerm::kResidualRows);
-    expectGradient(term, MovingBody::motion(1, 0.5), 1e-5, MarkerTerm::kResidualRows);
+    const MarkerTerm term(scene.model, markers, 5.0, 0.05);
+    expectGradientMatches(term, kBody, truth, 1e-5);
+    expectGradientMatches(term, kBody, MovingBody::motion(1, 0.5), 1e-5);
   }
 }
 
@@ -56,9 +35,9 @@ TEST(MarkerTerm, GradientIsFiniteAtAPerfectFit) {
   const MovingBody scene;
   const Pose truth = MovingBody::motion(2, 0.1);
   const MarkerSet markers = scene.markers(truth);
-  MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
-  EXPECT_LT(residualOf(term, truth).norm(), 1e-12);
-  expectGradient(term, truth, 1e-6, MarkerTerm::kResidualRows);
+  const MarkerTerm term(scene.model, markers, 5.0, 0.05);
+  EXPECT_LT(energyOf(term, kBody, truth), 1e-12);
+  expectGradientMatches(term, kBody, truth, 1e-6);
 }
 
 TEST(MarkerTerm, EnergyIsTheWeightedLorentzianOfTheSeenMarkers) {
@@ -71,15 +50,14 @@ TEST(MarkerTerm, EnergyIsTheWeightedLorentzianOfTheSeenMarkers) {
   markers.position.col(4).setConstant(1e6);
   markers.confidence[4] = 0;
   markers.confidence[9] = 0.25;
-  MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
+  const MarkerTerm term(scene.model, markers, 5.0, 0.05);
   const double expected = 5.0 * (lorentzian(0.03, 0.05) + 0.25 * lorentzian(0.7, 0.05) + lorentzian(1e-6, 0.05));
-  EXPECT_NEAR(residualOf(term, q).squaredNorm(), expected, 1e-10);
-  EXPECT_NEAR(term.rms(q), std::sqrt((0.03 * 0.03 + 0.25 * 0.49) / 13.25), 1e-9);
+  EXPECT_NEAR(energyOf(term, kBody, q), expected, 1e-10);
+  EXPECT_NEAR(term.rms(framesOf(scene.skeleton, q)), std::sqrt((0.03 * 0.03 + 0.25 * 0.49) / 13.25), 1e-9);
 }
 
-// Moving along e: J^T J must be that of iteratively reweighted least squares, and the extra row must not touch the
-// gradient.
-TEST(MarkerTerm, CurvatureAlongTheErrorIsThatOfReweightedLeastSquares) {
+// The quadratic model must be that of iteratively reweighted least squares.
+TEST(MarkerTerm, CurvatureIsThatOfReweightedLeastSquares) {
   const MovingBody scene;
   const Pose q = MovingBody::motion(3, 0.0);
   for (const double e : {1e-7, 0.01, 0.05, 0.2, 1.0}) {
@@ -87,24 +65,21 @@ TEST(MarkerTerm, CurvatureAlongTheErrorIsThatOfReweightedLeastSquares) {
     markers.confidence.setZero();
     markers.confidence[0] = 0.5;
     markers.position(0, 0) += e;
-    MarkerTerm term(scene.skeleton, scene.model, markers, 5.0, 0.05);
-    Eigen::VectorXd r(+MarkerTerm::kRows);
-    Eigen::Matrix<double, Eigen::Dynamic, kDofCount> J(+MarkerTerm::kRows, kDofCount);
-    JacobianRows rows = J;
-    term.evaluate(q, r, &rows);
+    const MarkerTerm term(scene.model, markers, 5.0, 0.05);
+    const NormalEquations equations = equationsOf(term, scene.skeleton, q);
     const double slope = 2.5 / (2.0 * 0.05 * 0.05 + e * e);  // 2.5 rho'(e^2)
-    EXPECT_NEAR(J.col(kRootTx).squaredNorm(), slope, 1e-6 * slope);
-    EXPECT_NEAR(J.col(kRootTx).dot(r), -slope * e, 1e-6 * slope * e);
-    EXPECT_EQ(r.tail<kPartCount>().norm(), 0);
+    EXPECT_NEAR(equations.A(kRootTx, kRootTx), slope, 1e-6 * slope);
+    EXPECT_NEAR(equations.A(kRootTy, kRootTy), slope, 1e-6 * slope);
+    EXPECT_NEAR(equations.g[kRootTx], -slope * e, 1e-6 * slope * e);
   }
 }
 
 TEST(MarkerTerm, NoMarkersNoEnergy) {
   const MovingBody scene;
   const MarkerSet none;
-  MarkerTerm term(scene.skeleton, scene.model, none, 5.0, 0.05);
-  EXPECT_EQ(residualOf(term, Pose::Zero()).norm(), 0);
-  EXPECT_EQ(term.rms(Pose::Zero()), 0);
+  const MarkerTerm term(scene.model, none, 5.0, 0.05);
+  EXPECT_EQ(energyOf(term, kBody, Pose::Zero()), 0);
+  EXPECT_EQ(term.rms(framesOf(scene.skeleton, Pose::Zero())), 0);
 }
 
 std::vector<Pose> somePoses() {
@@ -115,49 +90,63 @@ std::vector<Pose> somePoses() {
 
 TEST(PriorTerm, GradientMatches) {
   const LocalPrior prior = MovingBody::priorOf(somePoses(), 2);
-  PriorTerm term(&prior, 0.2);
-  expectGradient(term, MovingBody::motion(5, 0.2));
+  PriorTerm term(&prior, 0.2, 0);
+  expectGradientMatches(term, kBody, MovingBody::motion(5, 0.2));
 }
 
 TEST(PriorTerm, IsZeroOnTheSubspaceAndTheSquaredDistanceOffIt) {
   const LocalPrior prior = MovingBody::priorOf(somePoses(), 3);
-  PriorTerm term(&prior, 0.2);
+  PriorTerm term(&prior, 0.2, 0);
   Pose q = prior.mean + prior.basis.leftCols<3>() * Eigen::Vector3d(0.7, -0.4, 0.2);
-  EXPECT_LT(residualOf(term, q).norm(), 1e-12);
+  EXPECT_LT(energyOf(term, kBody, q), 1e-12);
   q.head<3>() << 3, -2, 1;  // where the actor stands does not matter
   q[kRootRy] = 2.5;
-  EXPECT_LT(residualOf(term, q).norm(), 1e-12);
+  EXPECT_LT(energyOf(term, kBody, q), 1e-12);
   Pose off = Pose::Zero();
   for (int dof : kShapeDofs) off[dof] = 0.01 * dof;
   off -= (prior.basis.leftCols<3>() * (prior.basis.leftCols<3>().transpose() * off)).eval();
-  EXPECT_NEAR(residualOf(term, q + off).squaredNorm(), 0.2 * off.squaredNorm(), 1e-12);
+  EXPECT_NEAR(energyOf(term, kBody, q + off), 0.2 * off.squaredNorm(), 1e-12);
 }
 
 TEST(PriorTerm, OfAGaussianIsTheMahalanobisDistance) {
   LocalPrior prior = MovingBody::priorOf(somePoses(), 3);
   prior.deviation.head<3>() << 0.5, 0.2, 0.01;
   prior.residual_rad = 0.05;
-  PriorTerm term(&prior, 100.0);
-  expectGradient(term, MovingBody::motion(5, 0.2));
+  PriorTerm term(&prior, 100.0, 0);
+  expectGradientMatches(term, kBody, MovingBody::motion(5, 0.2));
   const auto P = prior.basis.leftCols<3>();
   Eigen::Matrix<double, kDofCount, kDofCount> covariance = 0.05 * 0.05 * Pose::Ones().asDiagonal().toDenseMatrix();
   covariance += P * prior.deviation.head<3>().cwiseAbs2().asDiagonal() * P.transpose();
   Pose d = Pose::Zero();
   for (int dof : kShapeDofs) d[dof] = 0.01 * (dof % 7) - 0.02;
   const double expected = 100.0 * 0.05 * 0.05 * d.dot(covariance.ldlt().solve(d));
-  EXPECT_NEAR(residualOf(term, prior.mean + d).squaredNorm(), expected, 1e-9);
+  EXPECT_NEAR(energyOf(term, kBody, prior.mean + d), expected, 1e-9);
+}
+
+// The density of a multivariate Student distribution, and a Gaussian where it has many degrees of freedom.
+TEST(PriorTerm, WithFreedomItIsAStudentDistribution) {
+  LocalPrior prior = MovingBody::priorOf(somePoses(), 3);
+  prior.deviation.head<3>() << 0.5, 0.2, 0.01;
+  prior.residual_rad = 0.05;
+  const Pose q = MovingBody::motion(5, 0.2);
+  const double unit = 100.0 * 0.05 * 0.05;
+  const double square = energyOf(PriorTerm(&prior, 100.0, 0), kBody, q) / unit;  // Mahalanobis
+  const PriorTerm student(&prior, 100.0, 4.0);
+  EXPECT_NEAR(energyOf(student, kBody, q), unit * (4.0 + kShapeDofCount) * std::log1p(square / 4.0), 1e-9);
+  expectGradientMatches(student, kBody, q);
+  EXPECT_NEAR(energyOf(PriorTerm(&prior, 100.0, 1e9), kBody, q), unit * square, 1e-4 * unit * square);
 }
 
 TEST(PriorTerm, NoPriorNoEnergy) {
-  PriorTerm term(nullptr, 0.2);
-  EXPECT_EQ(residualOf(term, MovingBody::motion(5, 0.2)).norm(), 0);
+  PriorTerm term(nullptr, 0.2, 5);
+  EXPECT_EQ(energyOf(term, kBody, MovingBody::motion(5, 0.2)), 0);
 }
 
 TEST(SmoothTerm, GradientMatches) {
   const Pose q1 = MovingBody::motion(6, 0.1);
   const Pose q2 = MovingBody::motion(6, 0.05);
   SmoothTerm term(&q1, &q2, 1.0, 1.0);
-  expectGradient(term, MovingBody::motion(6, 0.2));
+  expectGradientMatches(term, kBody, MovingBody::motion(6, 0.2));
 }
 
 TEST(SmoothTerm, IsThePapersSecondDifference) {
@@ -165,7 +154,7 @@ TEST(SmoothTerm, IsThePapersSecondDifference) {
   const Pose q1 = MovingBody::motion(6, 0.1);
   const Pose q2 = MovingBody::motion(6, 0.05);
   SmoothTerm term(&q1, &q2, 1.0, 3.0);
-  EXPECT_NEAR(residualOf(term, q).squaredNorm(), 3.0 * (q - 2 * q1 + q2).squaredNorm(), 1e-12);
+  EXPECT_NEAR(energyOf(term, kBody, q), 3.0 * (q - 2 * q1 + q2).squaredNorm(), 1e-12);
 }
 
 TEST(SmoothTerm, ConstantVelocityCostsNothingAtUnevenTimes) {
@@ -173,7 +162,7 @@ TEST(SmoothTerm, ConstantVelocityCostsNothingAtUnevenTimes) {
   const Pose velocity = MovingBody::motion(7, 0.5) - q2;
   const Pose q1 = q2 + 0.033 * velocity;
   SmoothTerm term(&q1, &q2, 3.0, 1.0);
-  EXPECT_LT(residualOf(term, q1 + 0.099 * velocity).norm(), 1e-12);
+  EXPECT_LT(energyOf(term, kBody, q1 + 0.099 * velocity), 1e-12);
 }
 
 TEST(SmoothTerm, HeadingGoesAroundTheCircle) {
@@ -184,26 +173,26 @@ TEST(SmoothTerm, HeadingGoesAroundTheCircle) {
   q1[kRootRy] = 3.13;
   q[kRootRy] = 3.16 - 2.0 * std::numbers::pi;
   SmoothTerm term(&q1, &q2, 1.0, 1.0);
-  EXPECT_LT(residualOf(term, q).norm(), 1e-12);
+  EXPECT_LT(energyOf(term, kBody, q), 1e-12);
   q1[kRootRy] -= 2.0 * std::numbers::pi;
   SmoothTerm across(&q1, &q2, 1.0, 1.0);
-  EXPECT_LT(residualOf(across, q).norm(), 1e-12);
+  EXPECT_LT(energyOf(across, kBody, q), 1e-12);
 }
 
 TEST(SmoothTerm, WithOnePoseNoMotionIsExpectedAndWithNoneNothing) {
   const Pose q1 = MovingBody::motion(8, 0.0);
   SmoothTerm one(&q1, nullptr, 1.0, 1.0);
-  EXPECT_EQ(residualOf(one, q1).norm(), 0);
-  EXPECT_NEAR(residualOf(one, Pose(q1.array() + 0.1)).squaredNorm(), 0.01 * kDofCount, 1e-12);
+  EXPECT_EQ(energyOf(one, kBody, q1), 0);
+  EXPECT_NEAR(energyOf(one, kBody, Pose(q1.array() + 0.1)), 0.01 * kDofCount, 1e-12);
   SmoothTerm none(nullptr, nullptr, 1.0, 1.0);
-  EXPECT_EQ(residualOf(none, q1).norm(), 0);
+  EXPECT_EQ(energyOf(none, kBody, q1), 0);
 }
 
 TEST(LimitTerm, GradientMatchesOnBothSidesAndWithin) {
   LimitTerm term(10.0);
-  expectGradient(term, jointLimits().upper.cwiseMin(3.0) + Pose::Constant(0.1));
-  expectGradient(term, jointLimits().lower.cwiseMax(-3.0) - Pose::Constant(0.1));
-  expectGradient(term, Pose::Zero());
+  expectGradientMatches(term, kBody, jointLimits().upper.cwiseMin(3.0) + Pose::Constant(0.1));
+  expectGradientMatches(term, kBody, jointLimits().lower.cwiseMax(-3.0) - Pose::Constant(0.1));
+  expectGradientMatches(term, kBody, Pose::Zero());
 }
 
 TEST(LimitTerm, CostsTheSquaredExcessOnly) {
@@ -211,11 +200,11 @@ TEST(LimitTerm, CostsTheSquaredExcessOnly) {
   Pose q = MovingBody::motion(9, 0.3);
   q[kRootRy] = 100;
   q[kRootTx] = -40;
-  EXPECT_EQ(residualOf(term, clampedToLimits(q)).norm(), 0);
+  EXPECT_EQ(energyOf(term, kBody, clampedToLimits(q)), 0);
   q = clampedToLimits(q);
   q[kRtibiaRx] = jointLimits().lower[kRtibiaRx] - 0.3;
   q[kLradiusRy] = jointLimits().upper[kLradiusRy] + 0.1;
-  EXPECT_NEAR(residualOf(term, q).squaredNorm(), 10.0 * (0.09 + 0.01), 1e-12);
+  EXPECT_NEAR(energyOf(term, kBody, q), 10.0 * (0.09 + 0.01), 1e-12);
 }
 
 TEST(WrappedAngle, StaysInTheHalfOpenRange) {
