@@ -106,7 +106,7 @@ void checkTrackOptions(OutputCheck& check, const TrackOptions& o) {
 void addLookAheadOption(CLI::App& command, double& seconds) {
   command
       .add_option("--look-ahead", seconds,
-                  "Each pose is steadied by the frames up to so many seconds before and after it; 0 = off, as live is")
+                  "Each pose explains the frames up to so many seconds before and after it, too; 0 = off, as live is")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
 }

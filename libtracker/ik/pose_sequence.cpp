@@ -7,7 +7,7 @@
 #include "libtracker/core/check.h"
 #include "libtracker/core/config_fields.h"
 #include "libtracker/core/parallel.h"
-#include "libtracker/ik/block_band.h"
+#include "libtracker/skeleton/block_band.h"
 #include "libtracker/skeleton/joint_limits.h"
 
 namespace depthmocap {

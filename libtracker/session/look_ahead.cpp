@@ -8,13 +8,12 @@
 
 namespace depthmocap {
 
-LookAhead::LookAhead(double half_width_s, std::size_t people) {
-  for (std::size_t i = 0; i < people; ++i) lanes_.push_back({LookAheadSmoother(half_width_s), {}});
+LookAhead::LookAhead(double reach_s, std::size_t people) {
+  for (std::size_t i = 0; i < people; ++i) lanes_.push_back({ClipSmoother(reach_s), {}});
 }
 
-void LookAhead::add(std::size_t index, DepthFrame& depth, std::span<const TrackedFrame* const> people,
-                    std::span<const Actor* const> actors) {
-  DMC_CHECK(people.size() == lanes_.size() && actors.size() == lanes_.size());
+void LookAhead::add(std::size_t index, DepthFrame& depth, std::span<const Seen> people) {
+  DMC_CHECK(people.size() == lanes_.size());
   if (spare_.empty()) spare_.emplace_back();
   waiting_.splice(waiting_.end(), spare_, spare_.begin());
   Frame& frame = waiting_.back();
@@ -23,14 +22,15 @@ void LookAhead::add(std::size_t index, DepthFrame& depth, std::span<const Tracke
   frame.people.resize(lanes_.size());
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     Lane& lane = lanes_[i];
-    const TrackedFrame& tracked = *people[i];
+    const TrackedFrame& tracked = *people[i].tracked;
     frame.people[i].tracked = tracked;
-    frame.people[i].actor = *actors[i];
+    frame.people[i].actor = *people[i].actor;
     const bool joined = tracked.state == TrackState::Tracking && lane.state_before == TrackState::Tracking &&
                         !tracked.reinitialised && tracked.R_world_camera == lane.R_world_camera_before;
     lane.state_before = tracked.state;
     lane.R_world_camera_before = tracked.R_world_camera;
-    lane.smoother.add({tracked.time_s, tracked.q, joined});
+    const bool is_seen = tracked.state == TrackState::Tracking;
+    lane.smoother.add({tracked.time_s, tracked.q, joined, is_seen ? *people[i].evidence : NormalEquations{}});
   }
 }
 

@@ -9,7 +9,7 @@
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/tracked_frame.h"
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "libtracker/smooth/look_ahead_smoother.h"
+#include "libtracker/smooth/clip_smoother.h"
 
 namespace depthmocap {
 
@@ -27,12 +27,17 @@ class LookAhead {
     DepthFrame depth;
     std::vector<Person> people;
   };
-  // See LookAheadSmoother; 0 = frames leave as they came, at once.
-  LookAhead(double half_width_s, std::size_t people);
+  // See ClipSmoother; 0 = frames leave as they came, at once.
+  LookAhead(double reach_s, std::size_t people);
 
-  // Everybody in the next frame, and the bodies in use. `depth`: its memory is exchanged for another frame's.
-  void add(std::size_t index, DepthFrame& depth, std::span<const TrackedFrame* const> people,
-           std::span<const Actor* const> actors);
+  // One person in the next frame.
+  struct Seen {
+    const TrackedFrame* tracked = nullptr;
+    const Actor* actor = nullptr;               // the body in use
+    const NormalEquations* evidence = nullptr;  // of the pose; see ClipSmoother
+  };
+  // Everybody in the next frame. `depth`: its memory is exchanged for another frame's.
+  void add(std::size_t index, DepthFrame& depth, std::span<const Seen> people);
   // No frame will follow.
   void finish();
   // The oldest frame that has not left, once it is due; null before. Valid until the next call.
@@ -41,7 +46,7 @@ class LookAhead {
  private:
   // The track of one person.
   struct Lane {
-    LookAheadSmoother smoother;
+    ClipSmoother smoother;
     std::deque<Pose> ready;  // poses of the oldest frames that wait
     TrackState state_before = TrackState::Lost;
     Eigen::Matrix3d R_world_camera_before = Eigen::Matrix3d::Zero();
@@ -53,7 +58,7 @@ class LookAhead {
   ForwardKinematics fk_;
 };
 
-// [s] Best for the mean error of rendered walks, runs and kicks among the widths that do not flatten punches.
-inline constexpr double kLookAhead_s = 0.13;
+// [s] Nine frames on either side at the usual rate; chosen by hand.
+inline constexpr double kLookAhead_s = 0.3;
 
 }  // namespace depthmocap

@@ -1,5 +1,6 @@
 #include "libtracker/session/pose_pipeline.h"
 
+#include "libtracker/tracker/frame_evidence.h"
 #include "libtracker/tracker/pose_fields.h"
 
 namespace depthmocap {
@@ -10,21 +11,24 @@ PosePipeline::PosePipeline(Tracker& tracker, double look_ahead_s, double smooth,
       waiting_(look_ahead_s, tracker.people().size()),
       lanes_(tracker.people().size(), Lane{PoseSmoother(smooth), {}}),
       leaving_(lanes_.size()),
-      actors_(lanes_.size()),
+      seen_(lanes_.size()),
       stats_(stats) {}
 
 TrackState PosePipeline::process(std::size_t index, DepthFrame& depth) {
   const TrackState state = tracker_.process(depth).state;
   stats_.addFrame(tracker_.people());
   rate_.count();
-  for (std::size_t i = 0; i < lanes_.size(); ++i) actors_[i] = &tracker_.actor(tracker_.people()[i]->person);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    const TrackedFrame* tracked = tracker_.people()[i];
+    seen_[i] = {tracked, &tracker_.actor(tracked->person), &FrameEvidence::of(tracker_, tracked->person)};
+  }
   if (looks_ahead_) {
-    waiting_.add(index, depth, tracker_.people(), actors_);
+    waiting_.add(index, depth, seen_);
     passOn();
     return state;
   }
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    leaving_[i] = &smoothed(*tracker_.people()[i], *actors_[i], lanes_[i]);
+    leaving_[i] = &smoothed(*seen_[i].tracked, *seen_[i].actor, lanes_[i]);
   }
   give(index, depth);
   return state;

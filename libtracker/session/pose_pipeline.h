@@ -13,7 +13,7 @@ namespace depthmocap {
 // Tracker -> look-ahead -> smoother -> sinks: the way of every frame, whether it comes from a recording or a camera.
 class PosePipeline {
  public:
-  // `look_ahead_s`: see LookAheadSmoother; 0 = every frame leaves at once. `smooth`: see PoseSmoother.
+  // `look_ahead_s`: see ClipSmoother; 0 = every frame leaves at once. `smooth`: see PoseSmoother.
   PosePipeline(Tracker& tracker, double look_ahead_s, double smooth, RunStats& stats);
   void addSink(FrameSink& sink) { sinks_.push_back(&sink); }
 
@@ -40,7 +40,7 @@ class PosePipeline {
   LookAhead waiting_;
   std::vector<Lane> lanes_;
   std::vector<const TrackedFrame*> leaving_;  // the people of the frame that leaves
-  std::vector<const Actor*> actors_;          // the bodies in use, one per person
+  std::vector<LookAhead::Seen> seen_;         // in the present frame, one per person
   ForwardKinematics fk_;
   RunStats& stats_;
   RateMeter rate_;

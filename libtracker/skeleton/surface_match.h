@@ -14,7 +14,7 @@ struct SurfaceMatch {
   BonePoint model;                                    // [m] on the surface
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  // [m] measured
   Eigen::Vector3d n_world = Eigen::Vector3d::Zero();  // unit normal of the surface at the time of matching
-  double weight = 0;                                  // (0, 1]
+  double weight = 0;                                  // (> 0) against a perfect match of usual noise
 };
 
 using SurfaceMatches = std::vector<SurfaceMatch>;  // at most kMaxSurfaceMatches

@@ -103,6 +103,12 @@ MapSummary MapSolver::solve(const MapInput& input, Pose& q) {
   return summary;
 }
 
+void MapSolver::expandEvidence(MapInput input, const Pose& q, NormalEquations& evidence) const {
+  input.q_prev = nullptr;
+  MapEnergy energy(input, config_);
+  energy.expand(energy.at(q), evidence);
+}
+
 MapSummary MapSolver::solveReference(const MapInput& input, Pose& q) const {
   DMC_CHECK(q.allFinite());
   MapEnergy energy(input, config_);

@@ -6,10 +6,10 @@
 #include "libtracker/core/config_fields.h"
 #include "libtracker/skeleton/local_prior.h"
 #include "libtracker/skeleton/marker_model.h"
+#include "libtracker/skeleton/normal_equations.h"
 #include "libtracker/skeleton/skeleton.h"
 #include "libtracker/skeleton/surface_match.h"
 #include "libtracker/solve/contact_term.h"
-#include "libtracker/solve/normal_equations.h"
 
 namespace depthmocap {
 
@@ -67,6 +67,8 @@ class MapSolver {
 
   // q: where to start, then the result; world frame, heading in (-pi, pi].
   MapSummary solve(const MapInput& input, Pose& q);
+  // What the frame says of its pose by itself: equation (5) at q without its smoothness.
+  void expandEvidence(MapInput input, const Pose& q, NormalEquations& evidence) const;
   // The same minimum by Ceres' L-BFGS, from energies and gradients alone: slow, the reference of solve().
   MapSummary solveReference(const MapInput& input, Pose& q) const;
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "libtracker/skeleton/local_prior.h"
-#include "libtracker/solve/normal_equations.h"
+#include "libtracker/skeleton/normal_equations.h"
 
 namespace depthmocap {
 

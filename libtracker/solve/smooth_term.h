@@ -1,5 +1,5 @@
 #pragma once
-#include "libtracker/solve/normal_equations.h"
+#include "libtracker/skeleton/normal_equations.h"
 
 namespace depthmocap {
 

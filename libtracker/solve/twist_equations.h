@@ -3,7 +3,7 @@
 #include <array>
 
 #include "libtracker/skeleton/forward_kinematics.h"
-#include "libtracker/solve/normal_equations.h"
+#include "libtracker/skeleton/normal_equations.h"
 
 namespace depthmocap {
 

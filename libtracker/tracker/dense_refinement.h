@@ -6,6 +6,7 @@
 #include "depthmocap/image.h"
 #include "libtracker/core/classified_pixels.h"
 #include "libtracker/match/free_space_matcher.h"
+#include "libtracker/match/match_noise.h"
 #include "libtracker/match/surface_matcher.h"
 #include "libtracker/solve/map_solver.h"
 
@@ -26,6 +27,9 @@ class DenseRefinement {
   void refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input, MapSolver& solver, Pose& q,
               MapSummary& summary);
 
+  // The matches of the last refine(); null: it made none.
+  [[nodiscard]] const SurfaceMatches* matches() const { return rounds_ > 0 ? &matches_ : nullptr; }
+
   // How much taller the measured person stands than the model at the solved pose: the ratio of their vertical extents.
   // 0 if it cannot be told (too little of the person in view). Needs the whole person in view.
   [[nodiscard]] double extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q);
@@ -35,6 +39,7 @@ class DenseRefinement {
   FreeSpaceMatcher free_space_;
   int rounds_;
   SurfaceMatches matches_;
+  MatchNoise noise_;
   ForwardKinematics fk_;
   PlacedSurface placed_;
   CameraModel camera_;

@@ -9,9 +9,10 @@ namespace depthmocap {
 
 // A pose that explains some evidence.
 struct Hypothesis {
-  Pose q = Pose::Zero();  // world
-  MapSummary summary;     // of the last solve
-  bool fresh = false;     // from a search over all poses, not from the frame before: it has no velocity
+  Pose q = Pose::Zero();     // world
+  MapSummary summary;        // of the last solve
+  bool fresh = false;        // from a search over all poses, not from the frame before: it has no velocity
+  NormalEquations evidence;  // what the image says of q; see MapSolver::expandEvidence
   // Of a pose from one image alone: the body with the size that was found with it.
   std::optional<SizeAdapter> body;
   Facing facing = Facing::Front;         // the side that the pose was found for, and

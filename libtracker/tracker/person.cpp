@@ -170,6 +170,7 @@ void Person::report(const PersonRegion& region, const UprightWorld& world, const
   setPose(memory.pose(), memory.actor(), fk_, out);
   if (!pose) return;
   out.confidence = jointConfidence(out.markers_camera, out.model_markers_camera);
+  evidence = pose->evidence;
   out.rms_marker_m = pose->summary.rms_marker_m;
   out.solver_iterations = pose->summary.iterations;
 }

@@ -26,6 +26,7 @@ class Person {
   TrackMemory memory;
   Observer observer;
   TrackedFrame out;
+  NormalEquations evidence;  // of the pose in `out` where it was found in this frame: see Hypothesis
 
  private:
   void begin(const DepthFrame& frame);

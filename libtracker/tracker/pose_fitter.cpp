@@ -63,9 +63,16 @@ Hypothesis PoseFitter::fitNext(const Evidence& evidence, const Prediction& predi
       input.contacts = nullptr;
     }
   }
+  finish(evidence, actor, input, fit);
+  return fit;
+}
+
+// The dense term, and what it leaves.
+void PoseFitter::finish(const Evidence& evidence, const Actor& actor, MapInput input, Hypothesis& fit) {
   dense_.refine(evidence.samples, actor, input, solver_, fit.q, fit.summary);
   judgeBySeen(evidence.markers_world, actor, fit.q, fit.summary);
-  return fit;
+  input.surface = dense_.matches();
+  solver_.expandEvidence(input, fit.q, fit.evidence);
 }
 
 std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const SizeAdapter& body) {
@@ -88,8 +95,7 @@ std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const S
   if (!believed(fit.summary)) return std::nullopt;
   const MarkerSet& markers = legs_.complete(evidence.markers_world, actor);
   const MapInput input{actor.skeleton, actor.markers, markers, &global_.prior(), nullptr, nullptr};
-  dense_.refine(evidence.samples, actor, input, solver_, fit.q, fit.summary);
-  judgeBySeen(evidence.markers_world, actor, fit.q, fit.summary);
+  finish(evidence, actor, input, fit);
   return fit;
 }
 

@@ -50,6 +50,7 @@ class PoseFitter {
   [[nodiscard]] bool wholeInView() const { return whole_in_view_; }
 
  private:
+  void finish(const Evidence& evidence, const Actor& actor, MapInput input, Hypothesis& fit);
   // Supposed markers say nothing about how well a pose fits: its summary is to speak of those that were seen.
   void judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary);
   [[nodiscard]] double searchScale(const Actor& actor) const { return actor.stature_m() / search_stature_m_; }

@@ -1,4 +1,4 @@
-#include "libtracker/ik/block_band.h"
+#include "libtracker/skeleton/block_band.h"
 
 #include <Eigen/Cholesky>
 

@@ -3,10 +3,9 @@
 #include <vector>
 
 #include "depthmocap/pose.h"
+#include "libtracker/skeleton/normal_equations.h"
 
 namespace depthmocap {
-
-using PoseMatrix = Eigen::Matrix<double, kDofCount, kDofCount>;
 
 // A symmetric matrix over the poses of a sequence in which a pose meets the two before it, each degree of freedom only
 // itself: A_tt full, A_t,t-1 and A_t,t-2 diagonal.
