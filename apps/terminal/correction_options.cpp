@@ -6,14 +6,12 @@
 #include <fmt/format.h>
 
 #include "libtracker/core/parse_number.h"
-#include "libtracker/recording/recording_header.h"
 
 namespace depthmocap {
 namespace {
 
-// [mm] Depth steps of cameras are 0.1, 0.125, 0.2, 0.25, 1 and 10 mm; farther out it is a mistake.
-constexpr double kFinestUnit_mm = 0.001;
-constexpr double kCoarsestUnit_mm = 100;
+constexpr double kFinestUnit_mm = 1000 * kFinestUnit_m;
+constexpr double kCoarsestUnit_mm = 1000 * kCoarsestUnit_m;
 
 std::string checkUnit(const std::string& text) {
   const std::optional<double> unit_mm = parseDouble(text);  // no number: also nan
@@ -24,11 +22,9 @@ std::string checkUnit(const std::string& text) {
 }  // namespace
 
 RecordingCorrection CorrectionChoice::read() const {
-  RecordingCorrection correction;
-  if (!camera_file.empty()) correction.camera = readRecordingHeader(camera_file);
+  CameraCorrection correction{camera_file, std::nullopt, turn_deg};
   if (depth_unit_mm) correction.depth_unit_m = *depth_unit_mm / 1000.0;
-  correction.turn_deg = turn_deg;
-  return correction;
+  return readCorrection(correction);
 }
 
 void addCorrectionOptions(CLI::App& command, CorrectionChoice& choice) {

@@ -1,3 +1,4 @@
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -6,6 +7,7 @@
 #include "libtracker/recording/image_list_reader.h"
 #include "libtracker/recording/oni_reader.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/recording/recording_header.h"
 #include "libtracker/recording/turned_recording.h"
 
 namespace depthmocap {
@@ -35,6 +37,19 @@ CameraModel correctedCamera(const CameraModel& own, const std::optional<Recordin
 }
 
 }  // namespace
+
+RecordingCorrection readCorrection(const CameraCorrection& correction) {
+  const auto [file, unit_m, turn_deg] = correction;
+  if (unit_m && !(*unit_m >= kFinestUnit_m && *unit_m <= kCoarsestUnit_m)) {
+    throw Error(fmt::format("{} is outside {} .. {}", *unit_m, kFinestUnit_m, kCoarsestUnit_m), "depth_unit_m");
+  }
+  if (turn_deg % 90 != 0 || turn_deg < 0 || turn_deg > 270) {
+    throw Error(fmt::format("{} is none of 0, 90, 180 and 270", turn_deg), "turn_deg");
+  }
+  RecordingCorrection read{std::nullopt, unit_m, turn_deg};
+  if (!file.empty()) read.camera = readRecordingHeader(file);
+  return read;
+}
 
 std::unique_ptr<RecordingReader> openRecording(const fs::path& path, const RecordingCorrection& correction) {
   std::unique_ptr<RecordingReader> reader = openAsItIs(path);

@@ -14,7 +14,8 @@ void checkIndex(std::size_t i, std::size_t count) {
 
 }  // namespace
 
-Recording::Recording(const std::filesystem::path& path) : reader_(openRecording(path)) {}
+Recording::Recording(const std::filesystem::path& path, const CameraCorrection& correction)
+    : reader_(openRecording(path, readCorrection(correction))) {}
 Recording::~Recording() = default;
 Recording::Recording(Recording&&) noexcept = default;
 Recording& Recording::operator=(Recording&&) noexcept = default;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "depthmocap/camera_correction.h"
 #include "depthmocap/camera_model.h"
 #include "depthmocap/depth_frame.h"
 
@@ -48,6 +49,14 @@ struct RecordingCorrection {
   std::optional<double> depth_unit_m;   // [m] (> 0) a stored step, also before the camera's; none: that
   int turn_deg = 0;                     // (0, 90, 180, 270) clockwise, that makes the pictures upright
 };
+
+// [m] Depth steps of cameras are 0.1, 0.125, 0.2, 0.25, 1 and 10 mm; farther out it is a mistake.
+inline constexpr double kFinestUnit_m = 1e-6;
+inline constexpr double kCoarsestUnit_m = 0.1;
+
+// What `correction` says, its camera read from its file. Throws Error for a file that cannot be read, a depth unit or a
+// turn that is not fit.
+RecordingCorrection readCorrection(const CameraCorrection& correction);
 
 // Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN,
 // zero or negative, no frame at all, times out of order; a correction whose camera takes pictures of another size).

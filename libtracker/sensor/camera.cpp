@@ -13,8 +13,11 @@ SourceOptions sourceOptions(const CameraOptions& options) {
   SourceOptions source;
   source.mode = options.mode;
   source.pixel_format = options.pixel_format;
-  source.depth_unit_m = options.depth_unit_m;
   source.speed = options.speed;
+  const RecordingCorrection correction = readCorrection(options.correction);
+  source.camera = correction.camera;
+  source.depth_unit_m = correction.depth_unit_m;
+  source.turn_deg = correction.turn_deg;
   return source;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "depthmocap/camera_correction.h"
 #include "depthmocap/camera_model.h"
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/export.h"
@@ -38,18 +39,19 @@ struct FoundCamera {
 
 // What may be asked of a camera beyond its name.
 struct CameraOptions {
-  std::optional<DepthMode> mode{};       // none: 640x480 at 30 per second, or the nearest that the camera has
-  std::string pixel_format{};            // V4L2 fourcc; empty: the best one that the camera offers
-  std::optional<double> depth_unit_m{};  // [m] (> 0) per depth step of the sensor; none: by the pixel format
-  double speed = 1;                      // (>= 0) of a replay; 0 = as fast as frames are asked for
+  std::optional<DepthMode> mode{};  // none: 640x480 at 30 per second, or the nearest that the camera has
+  std::string pixel_format{};       // V4L2 fourcc; empty: the best one that the camera offers
+  double speed = 1;                 // (>= 0) of a replay; 0 = as fast as frames are asked for
+  CameraCorrection correction{};    // what you know better than the camera
 };
 
 // A live depth camera, or a recording that behaves as one. One thread at a time. A camera comes back after it was
 // unplugged.
 class DEPTHMOCAP_API Camera {
  public:
-  // Sources: `openni2`, `openni2:URI` (where the library has the component openni2), `v4l2:/dev/videoN`, `replay:REC`.
-  // Throws Error for another name, a camera that is not there or cannot be used, a recording that cannot be read.
+  // Sources: `openni2`, `openni2:URI` (where the library has the component openni2), `v4l2:/dev/videoN`, `replay:REC`,
+  // `pipe:PATH` (docs/reference/pipe.md). Throws Error for another name, a camera that is not there or cannot be used,
+  // a recording that cannot be read.
   explicit Camera(const std::string& source, const CameraOptions& options = {});
   ~Camera();
   Camera(Camera&& other) noexcept;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "depthmocap/camera_correction.h"
 #include "depthmocap/camera_model.h"
 #include "depthmocap/depth_frame.h"
 #include "depthmocap/export.h"
@@ -18,8 +19,9 @@ class RecordingReader;
 class DEPTHMOCAP_API Recording {
  public:
   // Opens a depthmocap folder, a TUM RGB-D folder or an OpenNI .oni file (docs/reference/formats.md) and checks its
-  // header and index; pictures are opened in read(). Throws Error naming the file and what is wrong with it.
-  explicit Recording(const std::filesystem::path& path);
+  // header and index; pictures are opened in read(). Throws Error naming the file and what is wrong with it, and for a
+  // correction that is not fit.
+  explicit Recording(const std::filesystem::path& path, const CameraCorrection& correction = {});
   ~Recording();
   Recording(Recording&& other) noexcept;
   Recording& operator=(Recording&& other) noexcept;

@@ -39,6 +39,29 @@ TEST(Recording, NamesTheFolderThatIsMissing) {
   }
 }
 
+TEST(Recording, TakesWhatItsUserKnowsBetter) {
+  CameraCorrection correction;
+  correction.depth_unit_m = 0.002;
+  correction.turn_deg = 90;
+  Recording as_it_is(bundledRecording("walk"));
+  Recording corrected(bundledRecording("walk"), correction);
+  EXPECT_EQ(corrected.camera().width, as_it_is.camera().height);
+  EXPECT_EQ(corrected.camera().cy, as_it_is.camera().cx);
+  const DepthFrame before = as_it_is.read(0);
+  const DepthFrame after = corrected.read(0);
+  EXPECT_FLOAT_EQ(after.depth.at(before.depth.height - 1 - 300, 320), 2 * before.depth.at(320, 300));
+}
+
+TEST(Recording, RefusesCorrectionsThatAreNotFit) {
+  CameraCorrection correction;
+  correction.turn_deg = 45;
+  EXPECT_THROW(Recording(bundledRecording("walk"), correction), Error);
+  correction = {"no/such/camera.json", std::nullopt, 0};
+  EXPECT_THROW(Recording(bundledRecording("walk"), correction), Error);
+  correction = {{}, -1.0, 0};
+  EXPECT_THROW(Recording(bundledRecording("walk"), correction), Error);
+}
+
 TEST(Camera, ARecordingBehavesAsOne) {
   const TemporaryFolder folder;
   copyExcerpt("walk", kFrames, folder / "rec");
