@@ -3,6 +3,8 @@
 # where it is we who build it.
 add_library(depthmocap_flags INTERFACE)
 target_compile_options(depthmocap_flags INTERFACE -ffp-contract=off)
+# Packages name more libraries than we use; each that is linked is loaded at every start.
+target_link_options(depthmocap_flags INTERFACE LINKER:--as-needed)
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(depthmocap_flags INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
 endif()
