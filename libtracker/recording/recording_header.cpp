@@ -100,8 +100,11 @@ void checkCamera(const CameraModel& camera, const std::string& where) {
 }
 
 RecordingInfo readRecordingHeader(const std::filesystem::path& file) {
-  const std::string where = file.string();
-  const json header = readJsonFile(file);
+  return parseRecordingHeader(readFile(file, "the recording's header", kMostJsonBytes), file.string());
+}
+
+RecordingInfo parseRecordingHeader(std::string_view text, const std::string& where) {
+  const json header = parseJson(text, where);
   checkJsonFormat(header, kFormat, kVersion, where);
   RecordingInfo info;
   info.camera = readCamera(header, where);

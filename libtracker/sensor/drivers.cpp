@@ -5,6 +5,7 @@ namespace depthmocap {
 // Each in the driver's own source file.
 CameraDriver openNiDriver();
 CameraDriver v4l2Driver();
+CameraDriver pipeDriver();
 CameraDriver replayDriver();
 
 // A new driver is its source file and a line here. The order is that of help texts and lists.
@@ -14,6 +15,7 @@ const DriverTable& cameraDrivers() {
       openNiDriver(),
 #endif
       v4l2Driver(),
+      pipeDriver(),
       replayDriver(),
   });
   return kTable;

@@ -97,9 +97,13 @@ TEST(DriverTable, ListsANewDriversCameras) {
 
 TEST(DriverTable, KeepsTheShippedNamesAndWords) {
   const DriverTable& table = cameraDrivers();
-  EXPECT_EQ(table.help(), "openni2, openni2:URI, v4l2:/dev/videoN, or replay:REC (a recording as if it were a camera)");
+  EXPECT_EQ(
+      table.help(),
+      "openni2, openni2:URI, v4l2:/dev/videoN, pipe:-, pipe:PATH (frames that another program sends: standard input, "
+      "FIFO or Unix socket), or replay:REC (a recording as if it were a camera)");
   EXPECT_EQ(table.check("webcam"),
-            "'webcam' is no source; sources are openni2, openni2:URI, v4l2:/dev/videoN, replay:REC");
+            "'webcam' is no source; sources are openni2, openni2:URI, v4l2:/dev/videoN, pipe:-, pipe:PATH, replay:REC");
+  EXPECT_EQ(table.check("pipe:"), "pipe needs - (standard input) or a path: pipe:-");
   EXPECT_EQ(table.listedTitles(), "OpenNI2 and V4L2");
   EXPECT_EQ(table.check("openni2"), "");
   EXPECT_EQ(table.check("openni2:"), "openni2: needs a URI, or no colon");
