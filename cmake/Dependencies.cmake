@@ -61,6 +61,20 @@ if(DEPTHMOCAP_PROGRAM)
   endif()
 endif()
 
+# The Python package, of Debian's interpreter unless another is named; a build without it is whole.
+if(DEPTHMOCAP_PYTHON)
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  set(PYBIND11_FINDPYTHON ON)
+  find_package(Python QUIET COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.10 QUIET)
+  if(NOT Python_Development.Module_FOUND OR NOT pybind11_FOUND)
+    message(STATUS "The Python package is left out. On Debian: apt install python3-dev pybind11-dev")
+    set(DEPTHMOCAP_PYTHON OFF)
+  endif()
+endif()
+
 # PCL 1.13 has no PCL::PCL target: wrap its components once, as system headers.
 set(pcl_libraries ${PCL_COMMON_LIBRARIES} ${PCL_FEATURES_LIBRARIES} ${PCL_SAMPLE_CONSENSUS_LIBRARIES}
     ${PCL_SEARCH_LIBRARIES} ${PCL_SEGMENTATION_LIBRARIES} ${PCL_FILTERS_LIBRARIES})
