@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 
 #include "depthmocap/world_frame.h"
-#include "libtracker/core/atomic_file.h"
 #include "libtracker/core/check.h"
 #include "libtracker/core/csv.h"
+#include "libtracker/core/row_file.h"
+#include "libtracker/recording/track_rows.h"
 
 namespace depthmocap {
 
@@ -32,8 +33,6 @@ std::string worldFrameComment(const Eigen::Matrix3d& R_world_camera) {
                      p_camera);
 }
 
-constexpr std::string_view kPersonColumn = "person";
-
 std::vector<std::string> jointsColumns() {
   std::vector<std::string> columns = {"frame", "time_s", "state"};
   for (const std::string_view joint : kJointNames) {
@@ -47,45 +46,6 @@ std::vector<std::string> poseColumns() {
   columns.insert(columns.end(), kDofNames.begin(), kDofNames.end());
   return columns;
 }
-
-TrackState parseState(const CsvReader& csv, std::string_view text) {
-  for (const TrackState state : {TrackState::Tracking, TrackState::Coasting, TrackState::Lost}) {
-    if (text == trackStateName(state)) return state;
-  }
-  csv.fail("state must be tracking, coasting or lost");
-}
-
-// Frame and time of the current row, which both file kinds start with.
-template <typename Row>
-Row startRow(const CsvReader& csv, const std::vector<Row>& rows) {
-  Row row;
-  row.frame = csv.integer(0);
-  row.time_s = csv.number(1);
-  if (!rows.empty() && row.frame <= rows.back().frame) csv.fail("frame numbers must grow from row to row");
-  if (!rows.empty() && row.time_s <= rows.back().time_s) csv.fail("times must grow from row to row");
-  return row;
-}
-
-// The column that says whose a row is, where the file is of several people.
-class WhoseRow {
- public:
-  // Right after the header was read.
-  explicit WhoseRow(const CsvReader& csv, int person) : person_(person) {
-    for (std::size_t i = 0; i < csv.fieldCount(); ++i) {
-      if (csv.field(i) == kPersonColumn) column_ = i;
-    }
-  }
-  // Whether the current row is the wanted person's.
-  [[nodiscard]] bool wanted(const CsvReader& csv) const {
-    if (!column_) return true;
-    if (*column_ >= csv.fieldCount() || csv.field(*column_).empty()) return false;  // nobody was there
-    return csv.integer(*column_) == person_;
-  }
-
- private:
-  int person_;
-  std::optional<std::size_t> column_;
-};
 
 void readJointPositions(const CsvReader& csv, JointsRow& row) {
   for (int joint = 0; joint < kJointCount; ++joint) {
@@ -130,39 +90,6 @@ std::vector<PoseRow> readPoseFile(const std::filesystem::path& path, int person)
   }
   return rows;
 }
-
-std::string personHeader(FileOf kind) {
-  return kind == FileOf::People ? fmt::format(",{}", kPersonColumn) : std::string();
-}
-
-// A table on its way to a file: kept whenever it holds whole rows, even when the work was broken off.
-class RowFile {
- public:
-  RowFile(const std::filesystem::path& path, std::string_view head) : file_(path) { file_.write(head); }
-  ~RowFile() {
-    if (!worth_keeping_) return;
-    try {
-      file_.commit();
-    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): another failure is already being reported
-    }
-  }
-  RowFile(const RowFile&) = delete;
-  RowFile& operator=(const RowFile&) = delete;
-
-  void write(std::string_view row) {
-    worth_keeping_ = false;  // a row that fails halfway (disk full) spoils the file
-    file_.write(row);
-    worth_keeping_ = true;
-  }
-  void finish() {
-    worth_keeping_ = false;
-    file_.commit();
-  }
-
- private:
-  AtomicFile file_;
-  bool worth_keeping_ = false;
-};
 
 struct JointsWriter::Impl : RowFile {
   Impl(const std::filesystem::path& path, FileOf file_of) : RowFile(path, jointsHeader(file_of)), kind(file_of) {}
@@ -216,8 +143,7 @@ std::string jointsLine(const JointsRow& row, FileOf kind) {
                      row.confidence[joint]);
     }
   }
-  if (kind == FileOf::People) text += row.state == TrackState::Lost ? "," : fmt::format(",{}", row.person);
-  return text + "\n";
+  return text + personField(kind, row.state, row.person) + "\n";
 }
 
 void JointsWriter::write(const JointsRow& row) {
@@ -236,8 +162,7 @@ void PoseWriter::write(const PoseRow& row) {
   impl_->nameWorld(row.R_world_camera);
   std::string text = fmt::format("{},{:.6f}", row.frame, row.time_s);
   for (int i = 0; i < kDofCount; ++i) fmt::format_to(std::back_inserter(text), ",{:.6f}", row.q[i]);
-  if (impl_->kind == FileOf::People) text += fmt::format(",{}", row.person);
-  impl_->write(text + "\n");
+  impl_->write(text + personField(impl_->kind, TrackState::Tracking, row.person) + "\n");
 }
 
 void PoseWriter::finish() {
