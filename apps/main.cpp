@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/commands.h"
+#include "apps/plot/plot_command.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/parse_number.h"
 #include "libtracker/core/printable.h"
@@ -26,6 +27,7 @@ void addCommands(CLI::App& app) {
   addCamerasCommand(app);
   addCalibrateCommand(app);
   addEvaluateCommand(app);
+  addPlotCommand(app);
 #ifdef DEPTHMOCAP_LEARNING
   addForestCommand(app);
   addRoomsCommand(app);

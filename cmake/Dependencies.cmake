@@ -54,6 +54,7 @@ if(DEPTHMOCAP_PROGRAM)
   depthmocap_find(CLI11 libcli11-dev "DEPTHMOCAP_PROGRAM")
   depthmocap_find(Boost libboost-dev "DEPTHMOCAP_PROGRAM" 1.74)  # headers: Beast
   depthmocap_find_pc(liblo liblo liblo-dev "DEPTHMOCAP_PROGRAM")
+  depthmocap_find_pc(cairo cairo libcairo2-dev "DEPTHMOCAP_PROGRAM")
   # three.js for the live page, copied beside the program.
   find_path(THREE_JS three.min.js PATHS /usr/share/javascript/three)
   if(NOT THREE_JS)

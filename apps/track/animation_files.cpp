@@ -1,74 +1,30 @@
 #include "apps/track/animation_files.h"
 
-#include <fmt/format.h>
-
-#include "depthmocap/error.h"
 #include "libtracker/body/builtin_body.h"
 #include "libtracker/motion/bvh_writer.h"
+#include "libtracker/output/edit_motion.h"
 #include "libtracker/output/gltf.h"
+#include "libtracker/output/usd.h"
 
 namespace depthmocap {
 namespace {
 
 constexpr double kCentimetres = 100.0;
 
-}  // namespace
-
-AnimationFiles::AnimationFiles(const TrackOptions& options, double fps)
-    : bvh_(options.bvh),
-      gltf_(options.gltf),
-      floor_origin_(options.origin == "floor"),
-      bvh_moving_(options.bvh_moving),
-      bvh_scale_(options.bvh_unit == "cm" ? kCentimetres : 1.0),
-      fps_(fps) {}
-
-void AnimationFiles::add(std::span<const TrackedFrame* const> people) {
-  if (bvh_.empty() && gltf_.empty()) return;
-  people_.resize(people.size());
-  for (std::size_t i = 0; i < people.size(); ++i) {
-    const TrackedFrame& tracked = *people[i];
-    Person& person = people_[i];
-    person.number = tracked.person;
-    person.lengths = tracked.lengths;
-    if (tracked.state == TrackState::Lost) {
-      person.motion.addLost(tracked.time_s);
-    } else {
-      person.motion.add(tracked.time_s, tracked.q, tracked.lengths);
-    }
-  }
+// The motion as the animator wants it.
+MotionTrack edited(const TrackOptions& options, const MotionTrack& tracked) {
+  MotionTrack track = options.fps_out > 0 ? resampled(tracked, options.fps_out) : tracked;
+  if (options.in_place) keepInPlace(track);
+  if (options.loop) closeLoop(track, options.in_place);
+  return track;
 }
 
-void AnimationFiles::write() {
-  if (bvh_.empty() && gltf_.empty()) return;
-  std::vector<int> numbers;
-  std::vector<MotionTrack> tracks;
-  for (const Person& person : people_) {
-    if (person.motion.empty()) continue;
-    numbers.push_back(person.number);
-    tracks.push_back(person.motion.track(person.lengths));
-  }
-  if (tracks.empty()) {
-    throw Error("nobody was tracked, so there is no motion to write", (bvh_.empty() ? gltf_ : bvh_).string());
-  }
-  if (floor_origin_) moveToFloor(tracks);
-  std::vector<GltfPerson> found;
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (!bvh_.empty()) writeBvh(bvhOf(numbers[i]), tracks[i]);
-    if (!gltf_.empty()) found.push_back({numbers[i], makeBuiltinBody(tracks[i].lengths), tracks[i]});
-  }
-  if (!gltf_.empty()) writeGltf(gltf_, found);
-  bvh_.clear();
-  gltf_.clear();
-}
-
-std::filesystem::path AnimationFiles::bvhOf(int number) const {
-  if (people_.size() == 1) return bvh_;
-  return bvh_.parent_path() / fmt::format("{}-{}{}", bvh_.stem().string(), number, bvh_.extension().string());
-}
-
-void AnimationFiles::writeBvh(const std::filesystem::path& path, const MotionTrack& track) const {
-  const bool moving = track.sizeChanges() && bvh_moving_;
-  BvhWriter writer(path, makeSkeleton(track.lengths), 1.0 / track.frameTime_s(fps_), bvh_scale_, moving);
+void writeBvhFile(const TrackOptions& options, const std::filesystem::path& path, const MotionTrack& track,
+                  double fps) {
+  const bool moving = track.sizeChanges() && options.bvh_moving;
+  const double scale = options.bvh_unit == "cm" ? kCentimetres : 1.0;
+  BvhWriter writer(path, makeSkeleton(track.lengths), 1.0 / track.frameTime_s(fps), scale, moving,
+                   rigStyle(options.rig));
   for (const MotionTrack::Frame& frame : track.frames) {
     if (moving) {
       writer.write(frame.q, makeSkeleton(track.lengths.scaled(frame.scale)));
@@ -77,6 +33,23 @@ void AnimationFiles::writeBvh(const std::filesystem::path& path, const MotionTra
     }
   }
   writer.finish();
+}
+
+}  // namespace
+
+void writeAnimationFiles(const TrackOptions& options, const CollectedMotion& motion,
+                         const std::vector<const CollectedMotion::Person*>& people,
+                         const std::vector<MotionTrack>& tracks, double fps) {
+  const bool with_body = !options.gltf.empty() || !options.usd.empty();
+  const RigStyle style = rigStyle(options.rig);
+  std::vector<AnimatedPerson> found;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const MotionTrack track = edited(options, tracks[i]);
+    if (!options.bvh.empty()) writeBvhFile(options, motion.pathOf(options.bvh, *people[i]), track, fps);
+    if (with_body) found.push_back({people[i]->number, makeBuiltinBody(track.lengths), track});
+  }
+  if (!options.gltf.empty()) writeGltf(options.gltf, found, style);
+  if (!options.usd.empty()) writeUsd(options.usd, found, 1.0 / found.front().track.frameTime_s(fps), style);
 }
 
 }  // namespace depthmocap

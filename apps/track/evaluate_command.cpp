@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "depthmocap/error.h"
+#include "libtracker/clinical/evaluate_angles.h"
 #include "libtracker/evaluation/evaluate_joints.h"
 #include "libtracker/evaluation/evaluate_poses.h"
 
@@ -23,6 +24,7 @@ struct EvaluateOptions {
   fs::path truth;
   fs::path pose;
   fs::path truth_pose;
+  fs::path angles;
   int person = 1;
   EvaluationOptions evaluation;
 };
@@ -55,7 +57,7 @@ fs::path truthFile(const fs::path& truth, const char* name) {
 fs::path truthPoseFile(const EvaluateOptions& options) {
   if (!options.truth_pose.empty()) return options.truth_pose;
   if (fs::exists(options.truth) && !fs::is_directory(options.truth)) {
-    throw CLI::ValidationError("--pose", "needs --truth-pose when --truth names a file");
+    throw CLI::ValidationError(options.pose.empty() ? "--angles" : "--pose", "needs --truth-pose when --truth names a file");
   }
   return truthFile(options.truth, "pose.csv");
 }
@@ -64,6 +66,21 @@ std::optional<PoseFigures> poseFigures(const EvaluateOptions& options) {
   if (options.pose.empty()) return std::nullopt;
   return evaluatePoses(readPoseFile(options.pose, options.person), readPoseFile(truthPoseFile(options)),
                        options.evaluation);
+}
+
+// By name, and over confidence: {"from": 0.75, "to": 1, "angles": n, "rms_deg": x}.
+Json clinicalFigures(const AngleFigures& angles) {
+  Json by_confidence = Json::array();
+  for (std::size_t bin = 0; bin < AngleFigures::kBins; ++bin) {
+    by_confidence.push_back({{"from", static_cast<double>(bin) / AngleFigures::kBins},
+                             {"to", static_cast<double>(bin + 1) / AngleFigures::kBins},
+                             {"angles", angles.angles_by_confidence[bin]},
+                             {"rms_deg", figure(angles.rms_by_confidence_deg[bin])}});
+  }
+  return {{"compared", angles.compared},
+          {"rms_deg", namedFigures(kClinicalAngleNames, angles.rms_deg)},
+          {"bias_deg", namedFigures(kClinicalAngleNames, angles.bias_deg)},
+          {"by_confidence", by_confidence}};
 }
 
 Json report(const JointFigures& joints, const std::optional<PoseFigures>& poses, const EvaluationOptions& options) {
@@ -93,7 +110,13 @@ void evaluate(const EvaluateOptions& options) {
   const JointFigures joints =
       evaluateJoints(readJointsFile(options.joints, options.person),
                      readJointsFile(truthFile(options.truth, "joints.csv")), options.evaluation);
-  std::cout << report(joints, poses, options.evaluation).dump(2) << '\n';
+  Json json = report(joints, poses, options.evaluation);
+  if (!options.angles.empty()) {
+    json["clinical_angles"] =
+        clinicalFigures(evaluateAngles(readAnglesFile(options.angles, options.person),
+                                       readPoseFile(truthPoseFile(options)), options.evaluation));
+  }
+  std::cout << json.dump(2) << '\n';
 }
 
 }  // namespace
@@ -103,9 +126,9 @@ void addEvaluateCommand(CLI::App& app) {
   const auto options = std::make_shared<EvaluateOptions>();
   command->add_option("--joints", options->joints, "Joints file of the tracker")->required();
   command->add_option("--truth", options->truth, "Recording with truth/joints.csv, or a joints file")->required();
-  CLI::Option* pose = command->add_option("--pose", options->pose, "Pose file of the tracker: adds joint angles");
-  command->add_option("--truth-pose", options->truth_pose, "True pose file; otherwise the recording's truth/pose.csv")
-      ->needs(pose);
+  command->add_option("--pose", options->pose, "Pose file of the tracker: adds joint angles");
+  command->add_option("--truth-pose", options->truth_pose, "True pose file; otherwise the recording's truth/pose.csv");
+  command->add_option("--angles", options->angles, "Angles file of the tracker: adds clinical angles")->type_name("A.csv");
   command->add_option("--person", options->person, "Of several people tracked, which one to compare")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -118,7 +141,12 @@ void addEvaluateCommand(CLI::App& app) {
       "Example:\n"
       "  depthmocap replay recordings/walk --joints joints.csv --pose pose.csv\n"
       "  depthmocap evaluate --joints joints.csv --pose pose.csv --truth recordings/walk");
-  command->callback([options] { evaluate(*options); });
+  command->callback([options] {
+    if (!options->truth_pose.empty() && options->pose.empty() && options->angles.empty()) {
+      throw CLI::RequiredError("--truth-pose: --pose or --angles");
+    }
+    evaluate(*options);
+  });
 }
 
 }  // namespace depthmocap

@@ -6,32 +6,21 @@
 #include <thread>
 
 #include "apps/commands.h"
-#include "apps/terminal/correction_options.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
+#include "apps/track/recording_run.h"
+#include "apps/track/replay_folder.h"
 #include "apps/track/seen_depth.h"
-#include "apps/track/track_options.h"
-#include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
 #include "apps/track/turn_trial.h"
 #include "apps/view/replay_view.h"
 #include "depthmocap/error.h"
-#include "depthmocap/tracker.h"
-#include "libtracker/recording/recording.h"
-#include "libtracker/session/replay_session.h"
 
 namespace depthmocap {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-struct ReplayOptions {
-  fs::path recording;
-  CorrectionChoice correction;
-  TrackOptions track;
-  ReplaySessionOptions session;
-};
 
 // Programs that show the motion while it is tracked want it at the pace of the recording.
 class Pace : public FrameSink {
@@ -58,6 +47,18 @@ fs::path jointsBeside(const fs::path& recording) {
   return joints;
 }
 
+// Many recordings at once have files of fixed names in a folder.
+void replayAll(const ReplayOptions& o, const fs::path& out) {
+  if (!asksForNothing(o.track)) {
+    throw CLI::ValidationError("--out", "names its files itself; leave out --joints, --bvh and the other outputs");
+  }
+  OutputCheck check;
+  check.reads(o.recording);
+  check.writesFolder("--out", out);
+  checkTrackOptions(check, o.track);
+  replayFolder(o, out);
+}
+
 // Until Ctrl-C.
 void stayForView(ReplayView& view) {
   view.tracked();
@@ -72,20 +73,13 @@ void replay(const ReplayOptions& o) {
   const auto start = Clock::now();
   const StopRequest on_ctrl_c;
   const RecordingCorrection correction = o.correction.read();
-  const std::unique_ptr<RecordingReader> reader = openRecording(o.recording, correction);
   const Models models = loadModels(o.track);
-  const TrackerConfig config = trackerConfig(o.track);
-  const CameraModel& camera = reader->info().camera;
-  Tracker tracker(models, camera, config, actorOf(o.track));
-  ReplaySessionOptions options = o.session;
-  options.smooth = o.track.smooth;
-  options.name = o.recording.string();
-  ReplaySession session(*reader, tracker, options);
-  TrackOutputs outputs(o.track, reader->info());
+  RecordingRun run(o, models, correction);
+  ReplaySession& session = run.session;
   Pace pace;
   std::optional<ReplayView> view;
-  if (!o.track.vmc.empty()) session.addSink(pace);
-  session.addSink(outputs);
+  if (!o.track.vmc.empty() || !o.track.osc_trackers.empty()) session.addSink(pace);
+  session.addSink(run.outputs);
   SeenDepth seen;
   session.addSink(seen);
   TurnTrial trial;
@@ -97,10 +91,12 @@ void replay(const ReplayOptions& o) {
                  [](const std::string& message) { std::cerr << "depthmocap: warning: " << message << '\n'; },
                  [] { return StopRequest::made(); }});
   }
-  outputs.finish();
+  run.outputs.finish();
   const RunStats& stats = session.stats();
   if (!o.track.stats.empty()) stats.write(o.track.stats, millisecondsSince(start) / 1000.0, o.track.actor.empty());
-  const auto turn = [&] { return trial.turnThatHelps(models, camera, config, correction.turn_deg); };
+  const auto turn = [&] {
+    return trial.turnThatHelps(models, run.reader->info().camera, run.config, correction.turn_deg);
+  };
   std::cerr << trackedText(stats.tracked(), stats.frames(), seen, turn) << '\n';
   if (view) stayForView(*view);
 }
@@ -110,10 +106,20 @@ void replay(const ReplayOptions& o) {
 void addReplayCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "Tracks a recording and writes the motion.");
   const auto options = std::make_shared<ReplayOptions>();
-  command->add_option("recording", options->recording, "Recording: a depthmocap or TUM RGB-D folder, or an .oni file")
+  command
+      ->add_option("recording", options->recording,
+                   "Recording: a depthmocap or TUM RGB-D folder, or an .oni file; with --out a folder of recordings")
       ->type_name("REC")
       ->required();
   addTrackOptions(*command, options->track);
+  const auto out = std::make_shared<fs::path>();
+  command
+      ->add_option(
+          "--out", *out,
+          "Tracks all recordings below REC, --threads at the same time, into this folder: joints, pose, angles, "
+          "BVH and a summary; what is done there already is left")
+      ->type_name("DIR")
+      ->group("Outputs");
   addLookAheadOption(*command, options->session.look_ahead_s);
   addCorrectionOptions(*command, options->correction);
   command->add_option("--first", options->session.first_frame, "First frame number to track");
@@ -121,8 +127,10 @@ void addReplayCommand(CLI::App& app) {
   command->footer(
       "The same recording gives the same files, byte for byte, for any number of threads.\n"
       "Example:\n"
-      "  depthmocap replay recordings/walk --bvh walk.bvh --joints joints.csv --preview walk.mp4");
-  command->callback([options] {
+      "  depthmocap replay recordings/walk --bvh walk.bvh --joints joints.csv --preview walk.mp4\n"
+      "  depthmocap replay recordings --out results");
+  command->callback([options, out] {
+    if (!out->empty()) return replayAll(*options, *out);
     if (asksForNothing(options->track)) options->track.joints = jointsBeside(options->recording);
     replay(*options);
   });

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/view/view_options.h"
+#include "libtracker/motion/rig.h"
 #include "libtracker/segment/segment.h"
 #include "libtracker/tracker/leave_out.h"
 
@@ -14,12 +15,39 @@ constexpr const char* kEveryday = "Options";
 constexpr const char* kOutputs = "Outputs";
 constexpr const char* kResearch = "Parts and parameters of the tracker, for research";
 
+void addAnimationOptions(CLI::App& command, TrackOptions& o) {
+  command.add_option("--usd", o.usd, "The same as UsdSkel, USD as text")->type_name("M.usda");
+  command
+      .add_option("--rig", o.rig,
+                  "Names of bones and rest pose of BVH, glTF and USD as a program's own characters have them")
+      ->check(CLI::IsMember(std::vector<std::string>(kRigNames.begin(), kRigNames.end())))
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--root-motion", [&o](const std::string& kind) { o.in_place = kind == "in-place"; },
+          "Whether the hips of BVH, glTF and USD travel (full) or stay above the origin (in-place)")
+      ->check(CLI::IsMember({"full", "in-place"}))
+      ->default_str("full");
+  command.add_option("--fps-out", o.fps_out, "Frames per second of BVH, glTF and USD (default: as tracked)")
+      ->check(CLI::Range(1.0, 1000.0));
+  command.add_flag("--loop", o.loop, "The end of BVH, glTF and USD meets their start");
+  command
+      .add_option_function<std::string>(
+          "--fbx", [](const std::string&) {}, "Not written: see docs/guide/animation.md for the way through Blender")
+      ->check([](const std::string&) {
+        return std::string("is not written; write --gltf M.glb, import it in Blender and export FBX there");
+      })
+      ->type_name("M.fbx");
+}
+
 }  // namespace
 
 bool asksForNothing(const TrackOptions& o) {
-  const bool any_file = !(o.joints.empty() && o.pose.empty() && o.bvh.empty() && o.gltf.empty() && o.labels.empty() &&
-                          o.preview.empty() && o.contact_sheet.empty() && o.stats.empty() && o.save_config.empty());
-  return !any_file && o.vmc.empty() && !o.view.on;
+  const bool any_motion = !(o.joints.empty() && o.pose.empty() && o.angles.empty() && o.bvh.empty() && o.gltf.empty() &&
+                            o.usd.empty() && o.trc.empty() && o.c3d.empty() && o.mot.empty());
+  const bool any_file = any_motion || !(o.labels.empty() && o.preview.empty() && o.contact_sheet.empty() &&
+                                        o.stats.empty() && o.save_config.empty());
+  return !any_file && o.vmc.empty() && o.osc_trackers.empty() && !o.view.on;
 }
 
 void addTrackOptions(CLI::App& command, TrackOptions& o) {
@@ -35,6 +63,15 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.option_defaults()->group(kOutputs);
   command.add_option("--joints", o.joints, "Joint centres in the camera frame, CSV")->type_name("J.csv");
   command.add_option("--pose", o.pose, "The 36 degrees of freedom per frame, CSV")->type_name("Q.csv");
+  command
+      .add_option(
+          "--angles", o.angles,
+          "Clinical angles in degrees: flexion, abduction, rotation of each joint, CSV (docs/reference/angles.md)")
+      ->type_name("A.csv");
+  command.add_option("--trc", o.trc, "Joint centres as markers for OpenSim, TRC, mm, y up")->type_name("M.trc");
+  command.add_option("--c3d", o.c3d, "Joint centres as markers for laboratories, C3D, mm, z up")->type_name("M.c3d");
+  command.add_option("--mot", o.mot, "Coordinates of OpenSim's model Rajagopal2016, degrees and metres")
+      ->type_name("M.mot");
   command.add_option("--bvh", o.bvh, "Motion for animation programs, BVH, y up")->type_name("M.bvh");
   command.add_option("--bvh-unit", o.bvh_unit, "Unit of length of the BVH: m or cm")
       ->check(CLI::IsMember({"m", "cm"}))
@@ -42,14 +79,19 @@ void addTrackOptions(CLI::App& command, TrackOptions& o) {
   command.add_flag("--bvh-moving", o.bvh_moving,
                    "Bones of the BVH follow the size as it is found, by position channels; not for three.js");
   command.add_option("--gltf", o.gltf, "Skeleton, body surface and motion, binary glTF")->type_name("M.glb");
+  addAnimationOptions(command, o);
   command
-      .add_option(
-          "--origin", o.origin,
-          "Origin of BVH and glTF: floor, below the hips of the first frame, so that feet stand on y = 0; or the "
-          "camera")
+      .add_option("--origin", o.origin,
+                  "Origin of BVH, glTF, USD, TRC, C3D and .mot: floor, below the hips of the first frame, so that feet "
+                  "stand at "
+                  "height 0; or the camera")
       ->check(CLI::IsMember({"floor", "camera"}))
       ->capture_default_str();
   command.add_option("--vmc", o.vmc, "Streams the motion by the VMC protocol (VSeeFace, Unity, Unreal)")
+      ->type_name("HOST:PORT");
+  command
+      .add_option("--osc-trackers", o.osc_trackers,
+                  "Streams hips, chest, feet, knees, elbows and head as VR trackers to VRChat (its port is 9000)")
       ->type_name("HOST:PORT");
   command.option_defaults()->group(kEveryday);
   command.add_option("--smooth", o.smooth, "Calms all outputs (One-Euro filter): 0 = off, 1 = most")
@@ -96,6 +138,11 @@ void checkTrackOptions(OutputCheck& check, const TrackOptions& o) {
   check.writes("--pose", o.pose);
   check.writes("--bvh", o.bvh);
   check.writes("--gltf", o.gltf);
+  check.writes("--usd", o.usd);
+  check.writes("--angles", o.angles);
+  check.writes("--trc", o.trc);
+  check.writes("--c3d", o.c3d);
+  check.writes("--mot", o.mot);
   check.writesFolder("--labels", o.labels);
   check.writes("--preview", o.preview);
   check.writes("--contact-sheet", o.contact_sheet);

@@ -22,11 +22,21 @@ struct TrackOptions {
   std::filesystem::path joints;
   std::filesystem::path pose;
   std::filesystem::path bvh;
-  std::string origin = "floor";  // of BVH and glTF, or "camera"
+  std::string origin = "floor";  // of files for animation and laboratories, or "camera"
   bool bvh_moving = false;       // position channels for all bones of the BVH where the body's size was being found
   std::string bvh_unit = "m";    // or "cm"
   std::filesystem::path gltf;
-  std::string vmc;  // HOST:PORT
+  std::filesystem::path usd;
+  std::string rig = "motionbuilder";  // names of bones and rest pose in BVH, glTF and USD
+  bool in_place = false;              // the hips of BVH, glTF and USD stay above the origin
+  double fps_out = 0;                 // [1/s] of BVH, glTF and USD; 0 = as tracked
+  bool loop = false;                  // their end meets their start
+  std::filesystem::path angles;
+  std::filesystem::path trc;
+  std::filesystem::path c3d;
+  std::filesystem::path mot;
+  std::string vmc;           // HOST:PORT
+  std::string osc_trackers;  // HOST:PORT
   ViewOptions view;
   double smooth = 0;  // [0, 1] of the output filter; 0 = off
   std::filesystem::path labels;

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 
 #include "apps/track/track_options.h"
 #include "libtracker/recording/recording.h"
@@ -11,6 +12,7 @@ namespace depthmocap {
 // files, and the destructor does so too where a failure came first, so that what was tracked is kept.
 class TrackOutputs : public FrameSink {
  public:
+  // The options outlive it.
   TrackOutputs(const TrackOptions& options, const RecordingInfo& info);
   ~TrackOutputs() override;
   TrackOutputs(const TrackOutputs&) = delete;
@@ -20,6 +22,8 @@ class TrackOutputs : public FrameSink {
 
  private:
   struct Files;
+  static void writeAngles(Files& files, std::span<const TrackedFrame* const> people);
+
   std::unique_ptr<Files> files_;
 };
 

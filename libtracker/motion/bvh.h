@@ -19,15 +19,15 @@ SourceMotion readBvh(const std::filesystem::path& path, double fps_if_unsaid = 3
 
 // Writes BVH row by row; the file appears at finish(), which knows how many there are, and without it nothing stays.
 // Rows wait in memory, half a kilobyte each. Channels: root Xposition Yposition Zposition Zrotation Yrotation
-// Xrotation, every other bone Zrotation Yrotation Xrotation, with positions before them where bones move in their
-// parents (`moving_bones`); the Euler angles [deg] continue those of the row before. Lengths are multiplied by `scale`.
-// Errors name the file.
+// Xrotation, every other bone Zrotation Yrotation Xrotation, with positions before them for the first `moving_bones`,
+// which move in their parents; the Euler angles [deg] continue those of the row before. Lengths are multiplied by
+// `scale`. Errors name the file.
 class BvhRows {
  public:
   BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale,
-          bool moving_bones = false);
+          std::size_t moving_bones = 1);
 
-  // `positions` of the bones in their parents, one per bone; only the root's is read unless bones move.
+  // `positions` of the moving bones in their parents, at least; `rotations` of all.
   void write(const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Quaterniond>& rotations);
   void finish();
 
@@ -38,7 +38,7 @@ class BvhRows {
   std::vector<MotionBone> bones_;
   double fps_;
   double scale_;
-  bool moving_bones_;
+  std::size_t moving_bones_;
   std::string hierarchy_;
   std::string rows_;
   std::vector<std::size_t> order_;  // bones as the hierarchy lists them

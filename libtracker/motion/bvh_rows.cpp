@@ -43,7 +43,8 @@ Vector3d eulerZyx(const Eigen::Matrix3d& R, const Vector3d& near) {
 
 }  // namespace
 
-BvhRows::BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale, bool moving_bones)
+BvhRows::BvhRows(std::filesystem::path path, std::vector<MotionBone> bones, double fps, double scale,
+                 std::size_t moving_bones)
     : file_(path), bones_(std::move(bones)), fps_(fps), scale_(scale), moving_bones_(moving_bones) {
   DMC_CHECK(!bones_.empty() && bones_[0].parent < 0 && fps > 0 && scale > 0);
   angles_.assign(bones_.size(), Vector3d::Zero());
@@ -61,7 +62,7 @@ void BvhRows::bone(std::size_t index, int depth) {
   hierarchy_ += fmt::format("{0}{1} {2}\n{0}{{\n{0}  {3}", indent, depth == 0 ? "ROOT" : "JOINT", bone.name,
                             offset(depth == 0 ? Vector3d::Zero() : bone.offset));
   hierarchy_ += fmt::format("{}  CHANNELS {} Zrotation Yrotation Xrotation\n", indent,
-                            depth == 0 || moving_bones_ ? "6 Xposition Yposition Zposition" : "3");
+                            index < moving_bones_ ? "6 Xposition Yposition Zposition" : "3");
   bool has_child = false;
   for (std::size_t child = index + 1; child < bones_.size(); ++child) {
     if (bones_[child].parent != static_cast<int>(index)) continue;
@@ -76,13 +77,13 @@ void BvhRows::bone(std::size_t index, int depth) {
 
 void BvhRows::write(const std::vector<Vector3d>& positions, const std::vector<Eigen::Quaterniond>& rotations) {
   DMC_CHECK(rotations.size() == bones_.size());
-  DMC_CHECK(positions.size() == bones_.size() || (positions.size() == 1 && !moving_bones_));
+  DMC_CHECK(positions.size() >= moving_bones_);
   std::string row;
   const auto add = [&](const Vector3d& v) {
     row += fmt::format("{}{:.6f} {:.6f} {:.6f}", row.empty() ? "" : " ", v.x(), v.y(), v.z());
   };
   for (const std::size_t b : order_) {
-    if (b == 0 || moving_bones_) add(scale_ * positions[b]);
+    if (b < moving_bones_) add(scale_ * positions[b]);
     angles_[b] = eulerZyx(rotations[b].toRotationMatrix(), angles_[b]);
     add(kDegrees * angles_[b]);
   }

@@ -10,10 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "libtracker/body/pose_surface.h"
 #include "libtracker/core/atomic_file.h"
-#include "libtracker/motion/bvh_writer.h"
-#include "libtracker/skeleton/forward_kinematics.h"
+#include "libtracker/output/skin_rig.h"
 
 namespace depthmocap {
 namespace {
@@ -73,37 +71,6 @@ void append(std::vector<float>& out, const Eigen::Vector3d& v) {
   for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(v[i]));
 }
 
-// A node of the skeleton. The first kSkinBoneCount nodes are the skin bones in their order; every node is in the skin.
-struct RigNode {
-  std::string name;
-  int parent;  // index of a node; -1: none
-  Eigen::Vector3d offset;
-};
-
-std::vector<RigNode> rigNodes(const Skeleton& skeleton) {
-  const std::vector<MotionBone> bones = bvhBones(skeleton);
-  std::vector<RigNode> nodes;
-  const auto add = [&](const std::string& name, int parent, const Eigen::Vector3d& offset) {
-    nodes.push_back({name, parent, offset});
-  };
-  for (std::size_t b = 0; b < kBoneCount; ++b) add(bones[b].name, bones[b].parent, bones[b].offset);
-  for (const TwistBone& limb : kTwistBones) {
-    const MotionBone& bone = bones[static_cast<std::size_t>(limb.bone)];
-    add(bone.name + "Untwisted", bone.parent, bone.offset);
-  }
-  for (std::size_t b = kBoneCount; b < bones.size(); ++b) add(bones[b].name, bones[b].parent, bones[b].offset);
-  const auto head = static_cast<std::size_t>(Bone::Head);
-  add("HeadTop_End", static_cast<int>(head), bones[head].tip);
-  return nodes;
-}
-
-Eigen::Matrix3d nodeRotation(int skin_bone, const Pose& q) {
-  if (skin_bone < kBoneCount) return localRotation(static_cast<Bone>(skin_bone), q);
-  const TwistBone& limb = kTwistBones[static_cast<std::size_t>(skin_bone - kBoneCount)];
-  return localRotation(limb.bone, q) *
-         Eigen::AngleAxisd(-q[limb.twist], Eigen::Vector3d::Unit(limb.axis)).toRotationMatrix();
-}
-
 // The names of the first person's nodes are what other programs know; the others' say whose they are.
 std::string named(const std::string& name, int number) {
   return number == 1 ? name : fmt::format("{}-{}", name, number);
@@ -117,12 +84,13 @@ class Document {
   }
 
   // `start_s`: of the animation, in the time of the track.
-  void add(int number, const BodySurface& body, const MotionTrack& track, double start_s) {
-    Rig rig{body, track, rigNodes(body.skeleton), {}, nodes_.size()};
+  void add(int number, const BodySurface& body, const MotionTrack& track, RigStyle style, double start_s) {
+    const SkinRig skin(body, style);
+    Person rig{body, track, skin, skin.nodes(), {}, nodes_.size()};
     float lowest = 0;
-    for (const Eigen::Vector3f& p : body.vertices) lowest = std::min(lowest, p.y());
+    for (const Eigen::Vector3f& p : skin.vertices()) lowest = std::min(lowest, p.y());
     rig.lift = Eigen::Vector3d(0, -static_cast<double>(lowest), 0);
-    rig.nodes[0].offset = rig.lift;
+    rig.nodes[static_cast<std::size_t>(skin.nodeOf(static_cast<int>(Bone::Root)))].offset = rig.lift;
     addNodes(rig, number);
     addSkin(rig);
     addMesh(rig, number);
@@ -145,18 +113,19 @@ class Document {
 
  private:
   // One person's part of the document.
-  struct Rig {
+  struct Person {
     const BodySurface& body;
     const MotionTrack& track;
-    std::vector<RigNode> nodes;
+    const SkinRig& skin;
+    std::vector<SkinRig::Node> nodes;
     Eigen::Vector3d lift;
     std::size_t first;  // index of the first node in the document
   };
 
   // A skinned mesh is placed by its joints alone, so it stands beside the armature at the root of the scene.
-  void addNodes(const Rig& rig, int number) {
+  void addNodes(const Person& rig, int number) {
     for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
-      const RigNode& node = rig.nodes[n];
+      const SkinRig::Node& node = rig.nodes[n];
       json entry = {{"name", node.name}, {"translation", {node.offset.x(), node.offset.y(), node.offset.z()}}};
       json children = json::array();
       for (std::size_t child = n + 1; child < rig.nodes.size(); ++child) {
@@ -171,7 +140,7 @@ class Document {
     nodes_.push_back({{"name", named("Body", number)}, {"mesh", meshes_.size()}, {"skin", skins_.size()}});
   }
 
-  void addSkin(const Rig& rig) {
+  void addSkin(const Person& rig) {
     std::vector<Eigen::Vector3d> origin;
     std::vector<float> inverse_bind;
     json joints = json::array();
@@ -188,7 +157,7 @@ class Document {
     skins_.push_back({{"joints", joints}, {"skeleton", rig.first}, {"inverseBindMatrices", accessor}});
   }
 
-  void addMesh(const Rig& rig, int number) {
+  void addMesh(const Person& rig, int number) {
     const BodySurface& body = rig.body;
     std::vector<float> positions;
     std::vector<float> normals;
@@ -196,9 +165,9 @@ class Document {
     std::vector<std::uint8_t> bones;
     Eigen::Vector3f low = Eigen::Vector3f::Constant(1e9F);
     Eigen::Vector3f high = -low;
-    const auto vertex_normals = vertexNormals(body.vertices, body.triangles);
+    const auto vertex_normals = vertexNormals(rig.skin.vertices(), body.triangles);
     for (std::size_t v = 0; v < body.vertices.size(); ++v) {
-      const Eigen::Vector3f p = body.vertices[v] + rig.lift.cast<float>();
+      const Eigen::Vector3f p = rig.skin.vertices()[v] + rig.lift.cast<float>();
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
       append(positions, p.cast<double>());
@@ -207,7 +176,8 @@ class Document {
       for (std::size_t k = 0; k < 4; ++k) {
         const float weight = body.skin[v].weight[k];
         weights.push_back(weight);
-        bones.push_back(weight > 0 ? body.skin[v].bone[k] : std::uint8_t{0});
+        bones.push_back(weight > 0 ? static_cast<std::uint8_t>(rig.skin.nodeOf(body.skin[v].bone[k]))
+                                   : std::uint8_t{0});
       }
     }
     std::vector<std::uint32_t> indices;
@@ -225,7 +195,7 @@ class Document {
     meshes_.push_back({{"name", named("Body", number)}, {"primitives", listOf(primitive)}});
   }
 
-  void addAnimation(const Rig& rig, double start_s) {
+  void addAnimation(const Person& rig, double start_s) {
     const MotionTrack& track = rig.track;
     std::vector<float> times;
     for (const auto& frame : track.frames) times.push_back(static_cast<float>(frame.time_s - start_s));
@@ -237,25 +207,29 @@ class Document {
       channels_.push_back({{"sampler", samplers_.size()}, {"target", {{"node", rig.first + node}, {"path", path}}}});
       samplers_.push_back({{"input", time_accessor}, {"output", output}, {"interpolation", "LINEAR"}});
     };
-    std::vector<float> root;
-    for (const auto& frame : track.frames) append(root, frame.q.head<3>());
-    add(0, "translation", root, "VEC3");
+    for (int node = 0; node < rig.skin.movingNodes(); ++node) {
+      std::vector<float> positions;
+      for (const auto& frame : track.frames) {
+        append(positions, rig.skin.positions(frame.q)[static_cast<std::size_t>(node)]);
+      }
+      add(static_cast<std::size_t>(node), "translation", positions, "VEC3");
+    }
     if (track.sizeChanges()) {
       std::vector<float> scale;
       for (const auto& frame : track.frames) append(scale, Eigen::Vector3d::Constant(frame.scale));
-      add(0, "scale", scale, "VEC3");
+      add(rig.skin.movingNodes() - 1U, "scale", scale, "VEC3");
     }
     for (int bone = 0; bone < kSkinBoneCount; ++bone) {
-      add(static_cast<std::size_t>(bone), "rotation", rotations(track, bone), "VEC4");
+      add(static_cast<std::size_t>(rig.skin.nodeOf(bone)), "rotation", rotations(rig, bone), "VEC4");
     }
   }
 
   // x y z w, each on the side of its predecessor, so that linear interpolation does not go the long way.
-  [[nodiscard]] static std::vector<float> rotations(const MotionTrack& track, int bone) {
+  [[nodiscard]] static std::vector<float> rotations(const Person& rig, int bone) {
     std::vector<float> values;
     Eigen::Vector4d before = Eigen::Vector4d::Zero();
-    for (const auto& frame : track.frames) {
-      Eigen::Vector4d now = Eigen::Quaterniond(nodeRotation(bone, frame.q)).normalized().coeffs();
+    for (const auto& frame : rig.track.frames) {
+      Eigen::Vector4d now = rig.skin.rotation(bone, frame.q).coeffs();
       if (now.dot(before) < 0) now = -now;
       for (int i = 0; i < 4; ++i) values.push_back(static_cast<float>(now[i]));
       before = now;
@@ -298,19 +272,25 @@ double startOf(const MotionTrack& track) {
   return track.frames.empty() ? 0.0 : track.frames.front().time_s;
 }
 
+double startOf(const std::vector<AnimatedPerson>& people) {
+  double start_s = std::numeric_limits<double>::max();
+  for (const AnimatedPerson& person : people) start_s = std::min(start_s, startOf(person.track));
+  return start_s;
+}
+
 }  // namespace
 
-std::string gltfBytes(const BodySurface& body, const MotionTrack& track) {
+std::string gltfBytes(const BodySurface& body, const MotionTrack& track, RigStyle style) {
   Document document;
-  document.add(1, body, track, startOf(track));
+  document.add(1, body, track, style, startOf(track));
   return document.bytes();
 }
 
-void writeGltf(const std::filesystem::path& path, const std::vector<GltfPerson>& people) {
-  double start_s = std::numeric_limits<double>::max();
-  for (const GltfPerson& person : people) start_s = std::min(start_s, startOf(person.track));
+void writeGltf(const std::filesystem::path& path, const std::vector<AnimatedPerson>& people, RigStyle style) {
   Document document;
-  for (const GltfPerson& person : people) document.add(person.number, person.body, person.track, start_s);
+  for (const AnimatedPerson& person : people) {
+    document.add(person.number, person.body, person.track, style, startOf(people));
+  }
   writeFileAtomically(path, document.bytes());
 }
 

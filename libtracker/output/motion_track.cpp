@@ -18,8 +18,8 @@ double MotionTrack::frameTime_s(double fallback_fps) const {
   return (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
 }
 
-void moveToFloor(std::vector<MotionTrack>& tracks) {
-  if (tracks.empty() || tracks.front().frames.empty()) return;
+Eigen::Vector3d moveToFloor(std::vector<MotionTrack>& tracks) {
+  if (tracks.empty() || tracks.front().frames.empty()) return Eigen::Vector3d::Zero();
   std::vector<double> soles_y;
   for (const MotionTrack& track : tracks) {
     for (const MotionTrack::Frame& frame : track.frames) {
@@ -33,6 +33,7 @@ void moveToFloor(std::vector<MotionTrack>& tracks) {
   for (MotionTrack& track : tracks) {
     for (MotionTrack::Frame& frame : track.frames) frame.q.head<3>() -= origin;
   }
+  return origin;
 }
 
 void MotionTrackBuilder::add(double time_s, const Pose& q, const BoneLengths& lengths) {

@@ -22,8 +22,8 @@ struct MotionTrack {
 };
 
 // Moves the motion of everybody in a file by one translation: the lower sole is on y = 0 in the median frame, and the
-// first track's hips begin above x = z = 0. Without tracks nothing happens.
-void moveToFloor(std::vector<MotionTrack>& tracks);
+// first track's hips begin above x = z = 0. Returns where the new origin was [m]; without tracks nothing happens.
+Eigen::Vector3d moveToFloor(std::vector<MotionTrack>& tracks);
 
 // Collects a track frame by frame. An animation has no gaps: the pose rests while the actor is lost, and before the
 // actor was first seen it is the first pose.

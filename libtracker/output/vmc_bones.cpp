@@ -1,26 +1,14 @@
 #include "libtracker/output/vmc_bones.h"
 
+#include "libtracker/output/unity_axes.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
-namespace {
-
-// Our x is the actor's left, Unity's is the actor's right: the mirror image at the plane x = 0.
-Eigen::Vector3d mirroredX(const Eigen::Vector3d& p) {
-  return {-p.x(), p.y(), p.z()};
-}
-
-Eigen::Quaterniond mirroredX(const Eigen::Quaterniond& q) {
-  return {q.w(), q.x(), -q.y(), -q.z()};
-}
-
-}  // namespace
-
 std::array<VmcBone, kVmcBoneCount> vmcBones(const Skeleton& s, const Pose& q, const Eigen::Vector3d& origin) {
   std::array<VmcBone, kVmcBoneCount> bones;
   std::size_t next = 0;
   const auto add = [&](const Eigen::Vector3d& offset, const Eigen::Quaterniond& rotation) {
-    bones[next++] = {mirroredX(offset), mirroredX(rotation)};
+    bones[next++] = {inUnity(offset), inUnity(rotation)};
   };
   const auto bone = [&](Bone b) {
     const Eigen::Vector3d offset = b == Bone::Root ? Eigen::Vector3d(q.head<3>() - origin)

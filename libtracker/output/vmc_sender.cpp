@@ -3,12 +3,8 @@
 #include <optional>
 #include <string>
 
-#include <lo/lo.h>
-#include <netdb.h>
-
-#include "depthmocap/error.h"
-#include "libtracker/core/parse_number.h"
 #include "libtracker/output/floor_origin.h"
+#include "libtracker/output/osc_target.h"
 #include "libtracker/output/vmc_bones.h"
 
 namespace depthmocap {
@@ -19,30 +15,6 @@ constexpr int kLoaded = 1;
 constexpr int kCalibrated = 3;
 constexpr int kNormalMode = 0;
 constexpr std::size_t kUpperBodyBones = 12;  // in the first bundle
-
-struct Target {
-  std::string host;
-  std::string port;
-};
-
-Target parseTarget(const std::string& text) {
-  const auto fail = [&](const std::string& what) -> Target {
-    throw Error(what, "--vmc " + text, "write HOST:PORT, for example localhost:39539");
-  };
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) return fail("no host and port");
-  const auto port = parseInteger(text.substr(colon + 1));
-  if (!port || *port < 1 || *port > 65535) return fail("the port is no number from 1 to 65535");
-  std::string host = text.substr(0, colon);
-  if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  const int failure = getaddrinfo(host.c_str(), nullptr, &hints, &found);
-  if (failure != 0) return fail(std::string("the host is not known: ") + gai_strerror(failure));
-  freeaddrinfo(found);
-  return {host, std::to_string(*port)};
-}
 
 void addPose(lo_bundle bundle, const char* path, std::string_view name, const VmcBone& bone) {
   const Eigen::Vector3f p = bone.position.cast<float>();
@@ -66,23 +38,13 @@ void addState(lo_bundle bundle, TrackState state, double time_s) {
 }  // namespace
 
 struct VmcSender::Impl {
-  explicit Impl(const Target& target) : address(lo_address_new(target.host.c_str(), target.port.c_str())) {}
-  ~Impl() { lo_address_free(address); }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-
-  // With immediate time tags; frees the bundle and its messages.
-  void send(lo_bundle bundle) const {
-    lo_send_bundle(address, bundle);
-    lo_bundle_free_recursive(bundle);
-  }
-
-  lo_address address;
+  explicit Impl(const std::string& named) : target("--vmc", named) {}
+  OscTarget target;
   FloorOrigin floor;
   std::optional<double> start_s;
 };
 
-VmcSender::VmcSender(const std::string& target) : impl_(std::make_unique<Impl>(parseTarget(target))) {}
+VmcSender::VmcSender(const std::string& target) : impl_(std::make_unique<Impl>(target)) {}
 
 VmcSender::~VmcSender() = default;
 VmcSender::VmcSender(VmcSender&&) noexcept = default;
@@ -93,7 +55,7 @@ void VmcSender::send(double time_s, TrackState state, const BoneLengths& lengths
   const lo_bundle upper = lo_bundle_new(LO_TT_IMMEDIATE);
   addState(upper, state, time_s - *s.start_s);
   if (state == TrackState::Lost) {
-    s.send(upper);
+    s.target.send(upper);
     return;
   }
   const Skeleton skeleton = makeSkeleton(lengths);
@@ -103,8 +65,8 @@ void VmcSender::send(double time_s, TrackState state, const BoneLengths& lengths
   for (std::size_t i = 0; i < bones.size(); ++i) {
     addPose(i < kUpperBodyBones ? upper : lower, "/VMC/Ext/Bone/Pos", kVmcBoneNames[i], bones[i]);
   }
-  s.send(upper);
-  s.send(lower);
+  s.target.send(upper);
+  s.target.send(lower);
 }
 
 }  // namespace depthmocap

@@ -43,7 +43,7 @@ BoneLengths performer() {
 
 // A motion file's motion on our skeleton, with our names, in metres.
 SourceMotion sourceOf(const std::vector<Pose>& poses, const Skeleton& skeleton, double fps = 30.0) {
-  SourceMotion motion{bvhBones(skeleton), fps, {}};
+  SourceMotion motion{Rig(RigStyle::MotionBuilder, skeleton).bones(), fps, {}};
   for (const Pose& q : poses) {
     MotionFrame frame;
     for (std::size_t b = 0; b < motion.bones.size(); ++b) {
@@ -101,7 +101,8 @@ TEST(Retarget, NamingsAndUnitsDoNotMatter) {
       {"RightArm", "rShldr"}, {"RightForeArm", "rForeArm"}, {"RightHand", "rHand"},   {"RightUpLeg", "rThigh"},
       {"RightLeg", "rShin"},  {"RightFoot", "rFoot"},       {"RightToeBase", "rToe"}, {"RightShoulder", "rCollar"}};
   std::map<std::string, std::string> mixamo;
-  for (const MotionBone& bone : bvhBones(skeleton)) mixamo[bone.name] = "mixamorig:" + bone.name;
+  const Rig rig(RigStyle::MotionBuilder, skeleton);
+  for (const MotionBone& bone : rig.bones()) mixamo[bone.name] = "mixamorig:" + bone.name;
   for (const auto& names : {poser, mixamo}) {
     SourceMotion motion = sourceOf(poses, skeleton);
     rename(motion, names);

@@ -221,7 +221,7 @@ TEST(MotionTrack, RestsWhileLostAndStartsWithTheFirstPose) {
 
 TEST(Gltf, SeveralPeopleHaveASkeletonASkinAndChannelsEach) {
   const BodySurface body = makeBuiltinBody(averageBoneLengths(1.7));
-  std::vector<GltfPerson> people;
+  std::vector<AnimatedPerson> people;
   for (const int number : {1, 3}) {
     MotionTrackBuilder motion;
     for (int i = 0; i < 4; ++i) {
