@@ -76,7 +76,7 @@ TEST(AnglesFile, DamageIsNamedWithItsLine) {
   writer.write(anglesRow(trackedFrame(0, standing()), reader));
   writer.finish();
   writeBytes(folder / "b.csv", readBytes(folder / "a.csv") + "1,0.03,tracking,1,2\n");
-  EXPECT_NE(errorOf([&] { readAnglesFile(folder / "b.csv"); }).find("b.csv:3"), std::string::npos);
+  EXPECT_NE(errorOf([&] { readAnglesFile(folder / "b.csv"); }).find("b.csv: line 3"), std::string::npos);
   writeBytes(folder / "c.csv", "frame,time_s,state,knee\n");
   EXPECT_NE(errorOf([&] { readAnglesFile(folder / "c.csv"); }), "");
 }
