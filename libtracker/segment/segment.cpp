@@ -52,21 +52,12 @@ void summarise(const DepthImage& depth, const CameraModel& camera, const PixelBo
   out.touches_border = false;
   out.centroid_camera.setZero();
   for (int y = box.y0; y < box.y1; ++y) {
-    int count = 0;
-    double z_sum = 0;
-    double uz_sum = 0;
     for (int x = box.x0; x < box.x1; ++x) {
-      const int inside = out.mask.at(x, y);
-      const double z = inside * static_cast<double>(depth.at(x, y));
-      count += inside;
-      z_sum += z;
-      uz_sum += x * z;
+      if (out.mask.at(x, y) == 0) continue;
+      ++out.pixel_count;
+      sum += camera.unproject(x, y, static_cast<double>(depth.at(x, y)));
+      out.touches_border |= x == 0 || y == 0 || x == depth.width - 1 || y == depth.height - 1;
     }
-    if (count == 0) continue;
-    out.pixel_count += count;
-    sum += Eigen::Vector3d((uz_sum - camera.cx * z_sum) / camera.fx, (y - camera.cy) / camera.fy * z_sum, z_sum);
-    const bool at_side = out.mask.at(0, y) != 0 || out.mask.at(depth.width - 1, y) != 0;
-    out.touches_border |= at_side || y == 0 || y == depth.height - 1;
   }
   if (out.pixel_count > 0) out.centroid_camera = sum / out.pixel_count;
 }
