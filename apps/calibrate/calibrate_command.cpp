@@ -16,10 +16,12 @@
 #include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
+#include "apps/terminal/warnings.h"
 #include "calibration/calibration_run.h"
 #include "calibration/other_frames.h"
 #include "depthmocap/error.h"
 #include "libtracker/recording/recording.h"
+#include "libtracker/recording/unreadable_frames.h"
 #include "libtracker/sensor/open_source.h"
 
 namespace depthmocap {
@@ -44,33 +46,38 @@ struct CalibrateOptions {
   CorrectionChoice correction;
 };
 
-bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame) {
+bool readFrame(RecordingReader& reader, std::size_t i, DepthFrame& frame, UnreadableFrames& unreadable) {
   try {
     reader.read(i, frame);
     return true;
   } catch (const Error& error) {
-    std::cerr << "depthmocap: warning: " << error.what() << "; frame skipped\n";
+    unreadable.add(error);
     return false;
   }
 }
 
 void collect(RecordingReader& reader, CalibrationRun& run) {
-  Progress progress("looking for the T-pose", reader.frameCount());
-  DepthFrame frame;
-  for (std::size_t i = 0; i < reader.frameCount(); ++i) {
-    if (readFrame(reader, i, frame)) run.add(frame);
-    progress.update(i + 1);
+  UnreadableFrames unreadable;
+  {
+    Progress progress("looking for the T-pose", reader.frameCount());
+    DepthFrame frame;
+    for (std::size_t i = 0; i < reader.frameCount(); ++i) {
+      if (readFrame(reader, i, frame, unreadable)) run.add(frame);
+      progress.update(i + 1);
+    }
   }
+  warn(unreadable.lines("skipped"));
 }
 
-// The frames of a recording, for other poses than the T-pose.
+// The frames of a recording, for other poses than the T-pose. Those that cannot be read have been told of by collect().
 CalibrationRun::Frames othersOf(RecordingReader& reader) {
   return [&reader](const auto& visit) {
     const std::size_t count = std::min(reader.frameCount(), CalibrationRun::kMostOthers);
     Progress progress("looking at other poses", count);
     DepthFrame frame;
+    UnreadableFrames told;
     for (std::size_t i = 0; i < count; ++i) {
-      if (readFrame(reader, i, frame)) visit(frame);
+      if (readFrame(reader, i, frame, told)) visit(frame);
       progress.update(i + 1);
     }
   };
@@ -124,6 +131,7 @@ Calibration calibrateLive(const CalibrateOptions& o) {
   options.depth_unit_m = correction.depth_unit_m;
   options.turn_deg = correction.turn_deg;
   const auto source = openSource(o.recording.string(), options);
+  warn(source->info().guesses);
   CalibrationRun run = newRun(o, source->info());
   const OtherFrames others = watch(*source, run, o.seconds);
   return finish(o, run, others, source->info().camera);
@@ -131,6 +139,7 @@ Calibration calibrateLive(const CalibrateOptions& o) {
 
 Calibration calibrateRecording(const CalibrateOptions& o) {
   const auto reader = openRecording(o.recording, o.correction.read());
+  warn(reader->info().guesses);
   CalibrationRun run = newRun(o, reader->info());
   collect(*reader, run);
   return finish(o, run, othersOf(*reader), reader->info().camera);
@@ -139,6 +148,7 @@ Calibration calibrateRecording(const CalibrateOptions& o) {
 void calibrate(CalibrateOptions o) {
   OutputCheck check;
   check.readsRecording(o.recording.string());
+  check.reads(o.correction.camera_file);
   for (const fs::path& input : {o.forest, o.posedb, o.shape_space}) check.reads(input);
   check.writes("--out", o.out);
   check.writes("--preview", o.preview);

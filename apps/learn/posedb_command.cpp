@@ -15,6 +15,7 @@
 #include "apps/terminal/motion_options.h"
 #include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
+#include "apps/terminal/warnings.h"
 #include "depthmocap/error.h"
 #include "forest/pose_model/fit_pose_mixture.h"
 #include "forest/pose_model/learn_poses.h"
@@ -121,7 +122,7 @@ ReadMotions readMotions(const BuildOptions& o) {
   }
   ReadMotions read;
   const std::vector<std::string> warnings = readFiles(files, o, read);
-  for (const std::string& warning : warnings) std::cerr << "depthmocap: warning: left out " << warning << '\n';
+  for (const std::string& warning : warnings) warn("left out " + warning);
   read.broken = warnings.size();
   for (MotionClip& clip : procedural) read.clips.push_back(std::move(clip));
   if (read.clips.empty()) throw Error("none of the motions can be read", "posedb build", "see the warnings above");
@@ -134,9 +135,7 @@ void build(const BuildOptions& o) {
   }
   OutputCheck check;
   check.reads(o.samples);
-  for (const fs::path& folder : o.motions) {
-    for (const fs::path& file : findMotionFiles(folder)) check.reads(file);
-  }
+  for (const fs::path& folder : o.motions) readsMotions(check, folder, o.load);
   check.writes("--out", o.out);
   const PoseMixture mixture = o.samples.empty() ? PoseMixture{} : loadPoseMixture(o.samples);
   const auto start = std::chrono::steady_clock::now();

@@ -1,10 +1,11 @@
 #include "apps/terminal/motion_options.h"
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <map>
 
-#include <fmt/format.h>
+#include "apps/terminal/warnings.h"
+#include "depthmocap/error.h"
+#include "libtracker/motion/text_scanner.h"
 
 namespace depthmocap {
 namespace {
@@ -47,9 +48,23 @@ void addMotionOptions(CLI::App& command, LoadOptions& options) {
       ->capture_default_str();
 }
 
+void readsMotions(OutputCheck& check, const std::filesystem::path& motions, const LoadOptions& load) {
+  std::vector<std::filesystem::path> files = {motions};
+  if (std::filesystem::is_directory(motions)) files = findMotionFiles(motions);
+  if (load.asf) check.reads(*load.asf);
+  for (const std::filesystem::path& file : files) {
+    check.reads(file);
+    if (load.asf || lowerCase(file.extension().string()) != ".amc") continue;
+    try {
+      check.reads(asfFor(file));
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): reading it will say so
+    }
+  }
+}
+
 void printMotionWarnings(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    std::cerr << fmt::format("depthmocap: warning: {}: {}\n", file.string(), warning);
+    warn(file.string() + ": " + warning);
   }
 }
 

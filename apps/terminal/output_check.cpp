@@ -42,9 +42,9 @@ bool isSpecial(const fs::path& path) {
 
 // What a recording's folder consists of: lists, pictures and the folders that hold them.
 std::vector<fs::path> contentOf(const fs::path& recording) {
-  constexpr std::array<std::string_view, 8> kNames = {"recording.json", "frames.csv",   "depth",
+  constexpr std::array<std::string_view, 9> kNames = {"recording.json", "frames.csv",   "depth",
                                                       "truth",          "truth/labels", "truth/joints.csv",
-                                                      "truth/pose.csv", "depth.txt"};
+                                                      "truth/pose.csv", "depth.txt",    "associations.txt"};
   std::vector<fs::path> content = {recording};
   for (const std::string_view name : kNames) content.push_back(recording / name);
   std::set<fs::path> folders;

@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
+#include "apps/terminal/warnings.h"
 #include "apps/track/recording_run.h"
 #include "apps/track/replay_folder.h"
 #include "apps/track/seen_depth.h"
@@ -69,12 +70,14 @@ void stayForView(ReplayView& view) {
 void replay(const ReplayOptions& o) {
   OutputCheck check;
   check.readsRecording(o.recording.string());
+  check.reads(o.correction.camera_file);
   checkTrackOptions(check, o.track);
   const auto start = Clock::now();
   const StopRequest on_ctrl_c;
   const RecordingCorrection correction = o.correction.read();
   const Models models = loadModels(o.track);
   RecordingRun run(o, models, correction);
+  warn(run.reader->info().guesses);
   ReplaySession& session = run.session;
   Pace pace;
   std::optional<ReplayView> view;
@@ -88,8 +91,7 @@ void replay(const ReplayOptions& o) {
   {
     Progress progress("tracking", session.frameCount());
     session.run({[&](std::size_t done, std::size_t) { progress.update(done); },
-                 [](const std::string& message) { std::cerr << "depthmocap: warning: " << message << '\n'; },
-                 [] { return StopRequest::made(); }});
+                 [](const std::string& message) { warn(message); }, [] { return StopRequest::made(); }});
   }
   run.outputs.finish();
   const RunStats& stats = session.stats();

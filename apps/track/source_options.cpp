@@ -1,10 +1,8 @@
 #include "apps/track/source_options.h"
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 
-#include <fmt/format.h>
-
+#include "apps/terminal/warnings.h"
 #include "libtracker/sensor/driver_table.h"
 
 namespace depthmocap {
@@ -22,14 +20,6 @@ void addDriverOption(CLI::App& command, const DriverOption& option, SourceOption
         SourceOptions unused;
         return set(text, unused);
       });
-}
-
-// A focal length that is 1.4 times too long makes people 1.4 times too small.
-std::string guessText(const CameraModel& camera) {
-  return fmt::format(
-      "depthmocap: warning: the camera does not tell its intrinsics; taken are those usual for {}x{} pictures (focal "
-      "length {:.0f} px), and sizes are as wrong as that is; --camera C.json gives its own (docs/guide/cameras.md)\n",
-      camera.width, camera.height, camera.fx);
 }
 
 }  // namespace
@@ -58,9 +48,7 @@ std::unique_ptr<DepthSource> openChosenSource(const SourceChoice& choice) {
   options.depth_unit_m = correction.depth_unit_m;
   options.turn_deg = correction.turn_deg;
   std::unique_ptr<DepthSource> source = openSource(choice.source, options);
-  if (!options.camera && cameraDrivers().guessesIntrinsics(choice.source)) {
-    std::cerr << guessText(source->info().camera);
-  }
+  warn(source->info().guesses);
   return source;
 }
 

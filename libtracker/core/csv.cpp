@@ -23,11 +23,13 @@ std::string shown(std::string_view text) {
 
 void split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
+  const std::string_view ends = separator == CsvReader::kBlanks ? " \t" : std::string_view(&separator, 1);
   while (true) {
-    const std::size_t end = line.find(separator);
+    const std::size_t end = line.find_first_of(ends);
     fields.push_back(trimmed(line.substr(0, end)));
     if (end == std::string_view::npos) return;
     line.remove_prefix(end + 1);
+    if (separator == CsvReader::kBlanks) line = trimmed(line);
   }
 }
 
@@ -71,6 +73,7 @@ bool CsvReader::readLine() {
   if (stream_.fail() && !stream_.eof() && taken > 0) fail("is too long");
   if (stream_.fail()) return false;
   line_ = {buffer_.data(), taken - (stream_.eof() ? 0 : 1)};  // gcount() counts the line's end, if there was one
+  if (line_number_ == 1) line_ = withoutByteOrderMark(line_);
   return true;
 }
 

@@ -10,10 +10,13 @@
 namespace depthmocap {
 
 // Reads a comma-separated file line by line: blank lines and lines that start with '#' are skipped, fields are trimmed,
-// there is no quoting. Memory is bounded by the longest line allowed (64 KiB). Every complaint is an Error that names
-// file and line.
+// there is no quoting. A byte order mark at the start is passed over. Memory is bounded by the longest line allowed
+// (64 KiB). Every complaint is an Error that names file and line.
 class CsvReader {
  public:
+  // A separator: any number of blanks and tabs.
+  static constexpr char kBlanks = ' ';
+
   explicit CsvReader(const std::filesystem::path& path, char separator = ',');
 
   // Takes the next line as the header. Its first columns must be these; more may follow.

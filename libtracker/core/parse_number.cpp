@@ -26,6 +26,12 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
+
 std::optional<double> parseDouble(std::string_view text) {
   const auto value = parseWhole<double>(text);
   return value && std::isfinite(*value) ? value : std::nullopt;

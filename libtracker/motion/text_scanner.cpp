@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/parse_number.h"
 #include "libtracker/core/printable.h"
 
 namespace depthmocap {
@@ -21,7 +22,7 @@ TextScanner::TextScanner(const std::filesystem::path& path, std::string_view ext
       text_(readFile(path, "the motion file", kMaxBytes)),
       separators_(extra_separators),
       comment_(comment) {
-  if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
+  position_ = text_.size() - withoutByteOrderMark(text_).size();
   if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) {
     throw Error("the file is UTF-16 text", path_, "save it as plain text (UTF-8)");
   }

@@ -36,10 +36,8 @@ class ImageListReader : public RecordingReader {
   Image<std::uint16_t> raw_;
 };
 
-// Both throw Error as openRecording does.
+// Throws Error as openRecording does.
 std::unique_ptr<RecordingReader> openRecordingFolder(const std::filesystem::path& folder);
-// TUM RGB-D benchmark (Sturm et al. 2012): depth.txt with rows `timestamp file`, 640x480, 5000 steps a metre.
-std::unique_ptr<RecordingReader> openTumFolder(const std::filesystem::path& folder);
 
 // `folder`/`name` for a name found in an index; Error unless it is a relative path that stays inside the folder.
 std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view name, const std::string& where);

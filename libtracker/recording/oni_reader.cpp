@@ -12,17 +12,17 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
+#include "libtracker/core/check_camera.h"
 #include "libtracker/recording/oni_codec.h"
 #include "libtracker/recording/oni_file.h"
-#include "libtracker/recording/recording_header.h"
 #include "libtracker/recording/undistort.h"
+#include "libtracker/recording/usual_camera.h"
 
 namespace depthmocap {
 
 namespace {
 
 constexpr double kSmallestStep_s = 1e-6;
-constexpr double kDefaultFocalLength = 575.8 / 640;  // of the width, as PrimeSense cameras have it
 
 // Numbers and times from 0, both growing: some recorders wrote the same number or time twice.
 void tidy(std::vector<OniPicture>& pictures) {
@@ -37,7 +37,7 @@ void tidy(std::vector<OniPicture>& pictures) {
 }
 
 double focalLength(int pixels, int width, double fov) {
-  return fov > 0 ? pixels / (2.0 * std::tan(fov / 2.0)) : kDefaultFocalLength * width;
+  return fov > 0 ? pixels / (2.0 * std::tan(fov / 2.0)) : kPrimeSenseFocal * width;
 }
 
 RecordingInfo infoOf(const OniDepth& depth, const std::filesystem::path& file) {

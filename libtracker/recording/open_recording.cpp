@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/check_camera.h"
 #include "libtracker/recording/image_list_reader.h"
 #include "libtracker/recording/oni_reader.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/recording_header.h"
+#include "libtracker/recording/tum_folder.h"
 #include "libtracker/recording/turned_recording.h"
 
 namespace depthmocap {
@@ -16,15 +18,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::unique_ptr<RecordingReader> openAsItIs(const fs::path& path) {
+std::unique_ptr<RecordingReader> openAsItIs(const fs::path& path, const RecordingCorrection& correction) {
   if (!fs::exists(path)) throw Error("there is no such recording", path.string());
   if (!fs::is_directory(path)) {
     if (path.extension() == ".oni") return openOniRecording(path);
     throw Error("is a file; a recording is a folder, or an OpenNI file named .oni", path.string());
   }
   if (fs::exists(path / "recording.json")) return openRecordingFolder(path);
-  if (fs::exists(path / "depth.txt")) return openTumFolder(path);
-  throw Error("is no recording: it holds neither recording.json nor depth.txt", path.string());
+  if (const std::optional<fs::path> index = tumIndex(path)) return openTumFolder(path, *index, correction);
+  throw Error("is no recording: it holds neither recording.json nor depth.txt nor associations.txt", path.string());
 }
 
 CameraModel correctedCamera(const CameraModel& own, const std::optional<RecordingInfo>& given) {
@@ -51,8 +53,21 @@ RecordingCorrection readCorrection(const CameraCorrection& correction) {
   return read;
 }
 
+void RecordingCorrection::validate() const {
+  if (camera) {
+    checkCamera(camera->camera, "camera");
+    checkRates(*camera, "camera");
+  }
+  RecordingInfo with_unit;
+  with_unit.depth_unit_m = depth_unit_m.value_or(with_unit.depth_unit_m);
+  checkRates(with_unit, "correction");
+  if (turn_deg == 0 || turn_deg == 90 || turn_deg == 180 || turn_deg == 270) return;
+  throw Error(fmt::format("turn_deg must be 0, 90, 180 or 270, not {}", turn_deg), "correction");
+}
+
 std::unique_ptr<RecordingReader> openRecording(const fs::path& path, const RecordingCorrection& correction) {
-  std::unique_ptr<RecordingReader> reader = openAsItIs(path);
+  correction.validate();
+  std::unique_ptr<RecordingReader> reader = openAsItIs(path, correction);
   if (correction.camera || correction.depth_unit_m) {
     const double own_unit_m = correction.camera ? correction.camera->depth_unit_m : reader->info().depth_unit_m;
     reader->believe(correctedCamera(reader->info().camera, correction.camera),

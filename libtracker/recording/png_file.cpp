@@ -96,11 +96,16 @@ bool writeRows(Writer& writer, int width, int height, int bits, png_bytepp rows)
   return true;
 }
 
-std::string sizeText(long width, long height) {
+std::string sizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-void checkHeader(const Reader& reader, int width, int height, int bits, const std::string& where) {
+PngSize sizeOf(const Reader& reader) {  // both are at most kLargestSide
+  return {static_cast<int>(png_get_image_width(reader.png, reader.info)),
+          static_cast<int>(png_get_image_height(reader.png, reader.info))};
+}
+
+void checkKind(const Reader& reader, int bits, const std::string& where) {
   if (png_get_color_type(reader.png, reader.info) != PNG_COLOR_TYPE_GRAY) {
     throw Error("is not a one-channel grey picture", where);
   }
@@ -108,11 +113,17 @@ void checkHeader(const Reader& reader, int width, int height, int bits, const st
   if (found_bits != bits) {
     throw Error("has " + std::to_string(found_bits) + " bits a pixel, " + std::to_string(bits) + " are needed", where);
   }
-  const auto found_width = static_cast<long>(png_get_image_width(reader.png, reader.info));
-  const auto found_height = static_cast<long>(png_get_image_height(reader.png, reader.info));
-  if (found_width != width || found_height != height) {
-    throw Error("is " + sizeText(found_width, found_height) + " pixels, not " + sizeText(width, height), where);
-  }
+}
+
+using OpenFile = std::unique_ptr<std::FILE, Close>;
+
+// Opens the file and reads its header; the file stays where the rows begin.
+OpenFile openPng(const std::filesystem::path& path, int bits, Reader& reader) {
+  OpenFile file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw Error(std::string("cannot be read: ") + std::strerror(errno), path.string());
+  if (!readHeader(reader, file.get())) throw Error("is not a whole PNG picture: " + reader.failure, path.string());
+  checkKind(reader, bits, path.string());
+  return file;
 }
 
 template <typename Value>
@@ -125,14 +136,16 @@ std::vector<png_bytep> rowsOf(Image<Value>& image) {
 
 template <typename Value>
 void readPng(const std::filesystem::path& path, int width, int height, Image<Value>& image) {
-  const std::string where = path.string();
-  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw Error(std::string("cannot be read: ") + std::strerror(errno), where);
   Reader reader;
-  if (!readHeader(reader, file.get())) throw Error("is not a whole PNG picture: " + reader.failure, where);
-  checkHeader(reader, width, height, 8 * static_cast<int>(sizeof(Value)), where);
+  const OpenFile file = openPng(path, 8 * static_cast<int>(sizeof(Value)), reader);
+  const PngSize found = sizeOf(reader);
+  if (found.width != width || found.height != height) {
+    throw Error("is " + sizeText(found.width, found.height) + " pixels, not " + sizeText(width, height), path.string());
+  }
   image.reset(width, height, 0);
-  if (!readRows(reader, rowsOf(image).data())) throw Error("is damaged or cut short: " + reader.failure, where);
+  if (!readRows(reader, rowsOf(image).data())) {
+    throw Error("is damaged or cut short: " + reader.failure, path.string());
+  }
 }
 
 template <typename Value>
@@ -154,6 +167,12 @@ void readPng16(const std::filesystem::path& path, int width, int height, Image<s
 
 void readPng8(const std::filesystem::path& path, int width, int height, Image<std::uint8_t>& image) {
   readPng(path, width, height, image);
+}
+
+PngSize png16Size(const std::filesystem::path& path) {
+  Reader reader;
+  const OpenFile file = openPng(path, 16, reader);
+  return sizeOf(reader);
 }
 
 void writePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image) {

@@ -15,6 +15,13 @@ namespace depthmocap {
 void readPng16(const std::filesystem::path& path, int width, int height, Image<std::uint16_t>& image);
 void readPng8(const std::filesystem::path& path, int width, int height, Image<std::uint8_t>& image);
 
+// Width and height [px] of a picture that readPng16 may read, from its header alone.
+struct PngSize {
+  int width = 0;
+  int height = 0;
+};
+PngSize png16Size(const std::filesystem::path& path);
+
 void writePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image);
 void writePng8(const std::filesystem::path& path, const Image<std::uint8_t>& image);
 

@@ -21,6 +21,8 @@ struct RecordingInfo {
   std::string camera_name;      // "kinect1", "kinect2", ...
   std::string note;
   std::string extra_json = "{}";  // unknown keys, kept when the recording is rewritten
+  // What the recording does not say and was guessed, or is wrong and was passed over: a line each, for people.
+  std::vector<std::string> guesses;
 };
 
 // A recording that is read frame by frame: depthmocap folder, TUM RGB-D folder or OpenNI file. Not thread-safe.
@@ -48,6 +50,7 @@ struct RecordingCorrection {
   std::optional<RecordingInfo> camera;  // intrinsics, distortion and depth step; none: the recording's own
   std::optional<double> depth_unit_m;   // [m] (> 0) a stored step, also before the camera's; none: that
   int turn_deg = 0;                     // (0, 90, 180, 270) clockwise, that makes the pictures upright
+  void validate() const;                // throws Error naming field, value and rule
 };
 
 // [m] Depth steps of cameras are 0.1, 0.125, 0.2, 0.25, 1 and 10 mm; farther out it is a mistake.

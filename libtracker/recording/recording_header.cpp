@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/check_camera.h"
 #include "libtracker/core/json_file.h"
 
 namespace depthmocap {
@@ -18,25 +19,13 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "depthmocap-recording";
 constexpr int kVersion = 1;
-constexpr int kLargestSide = 16384;  // [px]
-// [px] keeps a damaged header from asking for all memory; 3840 x 2160 is more than any depth camera has.
-constexpr std::int64_t kLargestArea = 3840 * 2160;
-// [px] of focal lengths and centre: six times the largest side, a lens of 9 degrees.
-constexpr double kLargestPixel = 1e5;
-constexpr double kSmallestFocal = 0.1;  // [px] of the widest lens on the smallest picture
-constexpr double kFastest = 1e4;        // [1/s] of pictures
+constexpr double kFastest = 1e4;  // [1/s] of pictures
 constexpr double kSlowest = 1e-3;
 constexpr double kLargestUnit_m = 1;  // of a step of depth
 constexpr double kSmallestUnit_m = 1e-7;
 
 void require(bool condition, const std::string& what, const std::string& where) {
   if (!condition) throw Error(what, where);
-}
-
-// False for NaN too.
-void requireRange(const char* field, double value, double low, double high, const std::string& where) {
-  require(value >= low && value <= high,
-          fmt::format("\"{}\" must lie in [{:g}, {:g}], not {:g}", field, low, high, value), where);
 }
 
 std::array<double, 5> readDistortion(const json& intrinsics, const std::string& where) {
@@ -77,26 +66,11 @@ std::string unknownKeys(json header) {
   return header.dump();
 }
 
+}  // namespace
+
 void checkRates(const RecordingInfo& info, const std::string& where) {
   requireRange("fps", info.fps, kSlowest, kFastest, where);
   requireRange("depth_unit_m", info.depth_unit_m, kSmallestUnit_m, kLargestUnit_m, where);
-}
-
-}  // namespace
-
-void checkCamera(const CameraModel& camera, const std::string& where) {
-  for (const int side : {camera.width, camera.height}) {
-    require(side >= 1 && side <= kLargestSide, "width and height must lie in [1, " + std::to_string(kLargestSide) + "]",
-            where);
-  }
-  require(
-      std::int64_t{camera.width} * camera.height <= kLargestArea,
-      fmt::format("the pictures must have at most {} pixels, not {} x {}", kLargestArea, camera.width, camera.height),
-      where);
-  requireRange("fx", camera.fx, kSmallestFocal, kLargestPixel, where);
-  requireRange("fy", camera.fy, kSmallestFocal, kLargestPixel, where);
-  requireRange("cx", camera.cx, -kLargestPixel, kLargestPixel, where);
-  requireRange("cy", camera.cy, -kLargestPixel, kLargestPixel, where);
 }
 
 RecordingInfo readRecordingHeader(const std::filesystem::path& file) {

@@ -14,7 +14,7 @@ RecordingInfo parseRecordingHeader(std::string_view text, const std::string& whe
 // The reverse, with the keys of info.extra_json. Distortion is not written: a writer is handed undistorted frames.
 void writeRecordingHeader(const std::filesystem::path& file, const RecordingInfo& info);
 
-// Throws Error unless the camera can be used: sizes in [1, 16384], focal lengths positive, everything finite.
-void checkCamera(const CameraModel& camera, const std::string& where);
+// Throws Error unless frame rate and depth step lie in their ranges.
+void checkRates(const RecordingInfo& info, const std::string& where);
 
 }  // namespace depthmocap

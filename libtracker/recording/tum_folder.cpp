@@ -1,9 +1,20 @@
+#include "libtracker/recording/tum_folder.h"
+
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "depthmocap/error.h"
-#include "libtracker/core/csv.h"
-#include "libtracker/recording/image_list_reader.h"
+#include "libtracker/core/check_camera.h"
+#include "libtracker/recording/png_file.h"
+#include "libtracker/recording/recording_header.h"
+#include "libtracker/recording/tum_index.h"
+#include "libtracker/recording/usual_camera.h"
 
 namespace depthmocap {
 
@@ -11,11 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kStepsPerMetre = 5000.0;
+constexpr double kStepsPerMetre = 5000.0;       // of the benchmark
+constexpr double kUsualStepsPerMetre = 1000.0;  // of nearly all cameras
+// [m] Where half of what is measured is nearer, no person fits into the picture: 1 m of height in view of a Kinect.
+constexpr double kNearestScene_m = 1.0;
 
 // Intrinsics that the benchmark's authors publish: depth is registered to the colour camera. Sequences of the third
 // camera are named freiburg3 and were rectified by the authors; for all others they recommend the default of ROS.
-CameraModel tumCamera(const fs::path& folder) {
+CameraModel benchmarkCamera(const fs::path& folder) {
   CameraModel camera;  // 640x480, 525, 319.5, 239.5
   if (fs::weakly_canonical(folder).string().find("freiburg3") != std::string::npos) {
     camera.fx = 535.4;
@@ -26,42 +40,74 @@ CameraModel tumCamera(const fs::path& folder) {
   return camera;
 }
 
-std::vector<IndexEntry> readIndex(const fs::path& folder) {
-  const fs::path file = folder / "depth.txt";
-  CsvReader rows(file, ' ');
-  std::vector<IndexEntry> index;
-  while (rows.next()) {
-    if (rows.fieldCount() != 2) rows.fail("must be a time and a file name");
-    IndexEntry entry{static_cast<std::int64_t>(index.size()), rows.number(0),
-                     pathInside(folder, rows.field(1), file.string())};
-    if (!index.empty() && entry.time_s <= index.back().time_s) rows.fail("times must grow from row to row");
-    index.push_back(std::move(entry));
+// The first picture that can be read; empty where none can.
+Image<std::uint16_t> firstPicture(const std::vector<IndexEntry>& entries) {
+  Image<std::uint16_t> picture;
+  for (const IndexEntry& entry : entries) {
+    try {
+      const PngSize size = png16Size(entry.file);
+      checkCamera(usualCamera(size.width, size.height), entry.file.string());
+      readPng16(entry.file, size.width, size.height, picture);
+      return picture;
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): reading that frame will say so
+    }
   }
-  if (index.empty()) throw Error("the recording has no frame", file.string());
-  return index;
+  return {};
 }
 
-// The median step, since frames may be missing. [1/s]
-double frameRate(const std::vector<IndexEntry>& index) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < index.size(); ++i) steps.push_back(index[i].time_s - index[i - 1].time_s);
-  if (steps.empty()) return RecordingInfo{}.fps;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return 1.0 / *middle;
+// [steps] of what is measured; 0 where nothing is.
+double medianDepth(const Image<std::uint16_t>& picture) {
+  std::vector<std::uint16_t> measured;
+  std::ranges::copy_if(picture.data, std::back_inserter(measured), [](std::uint16_t steps) { return steps > 0; });
+  if (measured.empty()) return 0;
+  const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
+  std::ranges::nth_element(measured, middle);
+  return *middle;
+}
+
+void takeCamera(const fs::path& folder, const Image<std::uint16_t>& first, bool known, RecordingInfo& info) {
+  info.camera = benchmarkCamera(folder);
+  info.camera_name = "kinect1";
+  if (first.empty() || (first.width == info.camera.width && first.height == info.camera.height)) return;
+  info.camera = usualCamera(first.width, first.height);
+  info.camera_name.clear();
+  if (known) return;
+  info.guesses.push_back(folder.string() + ": a TUM folder does not tell intrinsics: " + guessText(info.camera));
+}
+
+void takeUnit(const fs::path& folder, const Image<std::uint16_t>& first, bool known, RecordingInfo& info) {
+  info.depth_unit_m = 1.0 / kStepsPerMetre;
+  const double median = medianDepth(first);
+  if (known || median == 0 || median > kNearestScene_m * kStepsPerMetre) return;
+  info.depth_unit_m = 1.0 / kUsualStepsPerMetre;
+  info.guesses.push_back(
+      fmt::format("{}: with the benchmark's {:g} steps a metre half of the scene would be nearer than {:.2f} m: taken "
+                  "for millimetres, "
+                  "{:.2f} m; --depth-unit MM says what a step is",
+                  folder.string(), kStepsPerMetre, median / kStepsPerMetre, median / kUsualStepsPerMetre));
 }
 
 }  // namespace
 
-std::unique_ptr<RecordingReader> openTumFolder(const fs::path& folder) {
-  std::vector<IndexEntry> index = readIndex(folder);
+std::optional<fs::path> tumIndex(const fs::path& folder) {
+  for (const char* name : {"depth.txt", "associations.txt"}) {
+    if (fs::exists(folder / name)) return folder / name;
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<RecordingReader> openTumFolder(const fs::path& folder, const fs::path& index,
+                                               const RecordingCorrection& correction) {
+  TumIndex list = readTumIndex(folder, index);
+  const Image<std::uint16_t> first = firstPicture(list.entries);
   RecordingInfo info;
-  info.camera = tumCamera(folder);
-  info.fps = frameRate(index);
-  info.depth_unit_m = 1.0 / kStepsPerMetre;
-  info.camera_name = "kinect1";
+  info.guesses = std::move(list.guesses);
+  info.fps = list.fps;
+  takeCamera(folder, first, correction.camera.has_value(), info);
+  takeUnit(folder, first, correction.camera.has_value() || correction.depth_unit_m.has_value(), info);
   info.note = "TUM RGB-D " + fs::weakly_canonical(folder).filename().string();
-  return std::make_unique<ImageListReader>(std::move(info), std::move(index));
+  checkRates(info, index.string());
+  return std::make_unique<ImageListReader>(std::move(info), std::move(list.entries));
 }
 
 }  // namespace depthmocap

@@ -26,8 +26,6 @@ struct CameraDriver {
   std::vector<std::string> names;  // the forms of its names, for people: "v4l2:/dev/videoN"
   std::string_view remark;         // on these names, in the help of --source; may be empty
   std::vector<DriverOption> options;
-  // The camera does not tell its intrinsics: without SourceOptions::camera those usual for its picture size are taken.
-  bool guesses_intrinsics = false;
 
   // "" where the address can be one, else what is wrong with the name. No address: the name has no colon. Required.
   std::string (*check)(std::optional<std::string_view> address);

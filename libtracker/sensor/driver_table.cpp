@@ -53,11 +53,6 @@ std::unique_ptr<DepthSource> DriverTable::open(const std::string& name, const So
   return find(prefix)->open(std::string(address.value_or("")), options);
 }
 
-bool DriverTable::guessesIntrinsics(const std::string& name) const {
-  const CameraDriver* driver = find(split(name).prefix);
-  return driver != nullptr && driver->guesses_intrinsics;
-}
-
 std::vector<FoundCamera> DriverTable::list() const {
   std::vector<FoundCamera> all;
   for (const CameraDriver& driver : drivers_) {

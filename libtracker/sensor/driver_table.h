@@ -19,8 +19,6 @@ class DriverTable {
   [[nodiscard]] std::string check(const std::string& name) const;
   // Error for a name that check() refuses, and as the driver's open().
   [[nodiscard]] std::unique_ptr<DepthSource> open(const std::string& name, const SourceOptions& options) const;
-  // Whether intrinsics of this source, whose name check() accepts, are a guess unless the user gives them.
-  [[nodiscard]] bool guessesIntrinsics(const std::string& name) const;
   // The cameras of all drivers, in the table's order.
   [[nodiscard]] std::vector<FoundCamera> list() const;
   // The forms of names that there are, with the drivers' remarks: "openni2, openni2:URI, or replay:REC (a recording)".

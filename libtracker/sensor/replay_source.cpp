@@ -16,8 +16,6 @@ namespace depthmocap {
 
 namespace {
 
-constexpr double kFastest = 1000;  // times a recording's own pace; no tracker keeps up with so much
-
 std::string checkAddress(std::optional<std::string_view> address) {
   return address.value_or("").empty() ? "replay needs a recording: replay:REC" : "";
 }
@@ -29,7 +27,7 @@ std::unique_ptr<DepthSource> open(const std::string& recording, const SourceOpti
 
 std::string setSpeed(const std::string& text, SourceOptions& options) {
   const std::optional<double> speed = parseDouble(text);
-  if (!speed || *speed < 0 || *speed > kFastest) return "'" + text + "' is no number from 0 to 1000";
+  if (!speed || *speed < 0 || *speed > kFastestReplay) return "'" + text + "' is no number from 0 to 1000";
   options.speed = *speed;
   return "";
 }

@@ -72,7 +72,6 @@ CameraDriver v4l2Driver() {
           .remark = "",
           .options = {{"--pixel-format", "FOURCC", "V4L2: the fourcc to use, one of " + fourccNames(depthFourccs()), "",
                        setPixelFormat}},
-          .guesses_intrinsics = true,
           .check = checkAddress,
           .open = open,
           .list = [] { return listV4l2Cameras(); }};

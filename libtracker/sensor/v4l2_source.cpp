@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "libtracker/recording/undistort.h"
+#include "libtracker/recording/usual_camera.h"
 #include "libtracker/sensor/camera_calibration.h"
 #include "libtracker/sensor/frame_stamps.h"
 #include "libtracker/sensor/v4l2_stream.h"
@@ -12,26 +13,6 @@ namespace depthmocap {
 namespace {
 
 constexpr std::uint32_t kBackwards = 1U << 31U;  // a larger step of a count of 32 bits is one back
-constexpr double kFocalLength = 575.8 / 640;     // of the width: the Kinect of 2010 and its relatives
-
-// What is known of a camera by the size of its pictures alone. One copy of a Kinect of 2013 differs from the next by a
-// pixel or two.
-CameraModel usualCamera(const V4l2Format& format) {
-  CameraModel camera;
-  camera.width = format.width;
-  camera.height = format.height;
-  if (format.width == 512 && format.height == 424) {
-    camera.fx = camera.fy = 365.456;
-    camera.cx = 254.878;
-    camera.cy = 205.395;
-    camera.distortion = {0.0905474, -0.26819, 0, 0, 0.0950862};
-    return camera;
-  }
-  camera.fx = camera.fy = kFocalLength * format.width;
-  camera.cx = (format.width - 1) / 2.0;
-  camera.cy = (format.height - 1) / 2.0;
-  return camera;
-}
 
 double unitOf(const SourceOptions& options, std::uint32_t fourcc) {
   if (options.depth_unit_m) return *options.depth_unit_m;
@@ -42,7 +23,8 @@ class V4l2Source : public DepthSource {
  public:
   V4l2Source(const std::string& path, const SourceOptions& options, V4l2System& system)
       : stream_(system, path, options), raw_values_(options.depth_unit_m.has_value()) {
-    info_.camera = usualCamera(stream_.format());
+    info_.camera = usualCamera(stream_.format().width, stream_.format().height);
+    if (!options.camera) info_.guesses.push_back(path + ": does not tell its intrinsics: " + guessText(info_.camera));
     undistortion_ = calibrate(options.camera, info_);
     info_.fps = stream_.fps();
     info_.depth_unit_m = unitOf(options, stream_.format().fourcc);

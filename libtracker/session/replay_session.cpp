@@ -17,20 +17,23 @@ void ReplaySession::run(const ReplayHooks& hooks) {
   std::size_t readable = 0;
   std::size_t done = 0;
   for (; done < chosen_.size() && !(hooks.stopped && hooks.stopped()); ++done) {
-    readable += read(chosen_[done], hooks) ? 1 : 0;
+    readable += read(chosen_[done]) ? 1 : 0;
     pipeline_.process(chosen_[done], frame_);
     if (hooks.progress) hooks.progress(done + 1, chosen_.size());
+  }
+  if (hooks.warn) {
+    for (const std::string& line : unreadable_.lines("counted as empty")) hooks.warn(line);
   }
   if (readable == 0 && done == chosen_.size()) throw Error("no frame of the recording can be read", name_);
   pipeline_.finish();
 }
 
-bool ReplaySession::read(std::size_t i, const ReplayHooks& hooks) {
+bool ReplaySession::read(std::size_t i) {
   const auto start = RateMeter::Clock::now();
   try {
     reader_.read(i, frame_);
   } catch (const Error& error) {
-    if (hooks.warn) hooks.warn(std::string(error.what()) + "; frame counted as empty");
+    unreadable_.add(error);
     stats_.addUnreadable();
     frame_.frame = reader_.frameNumber(i);
     frame_.time_s = reader_.time(i);

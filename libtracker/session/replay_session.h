@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libtracker/recording/recording.h"
+#include "libtracker/recording/unreadable_frames.h"
 #include "libtracker/session/pose_pipeline.h"
 
 namespace depthmocap {
@@ -22,7 +23,7 @@ struct ReplaySessionOptions {
 // Callbacks of a long run. Each may be empty.
 struct ReplayHooks {
   std::function<void(std::size_t done, std::size_t total)> progress;
-  std::function<void(const std::string& message)> warn;  // a frame that cannot be read
+  std::function<void(const std::string& message)> warn;  // at the end: frames that cannot be read, a reason a line
   std::function<bool()> stopped;                         // true once the run shall end
 };
 
@@ -41,7 +42,7 @@ class ReplaySession {
   [[nodiscard]] RunStats& stats() { return stats_; }
 
  private:
-  bool read(std::size_t i, const ReplayHooks& hooks);
+  bool read(std::size_t i);
 
   RecordingReader& reader_;
   const std::string name_;
@@ -49,6 +50,7 @@ class ReplaySession {
   RunStats stats_;
   PosePipeline pipeline_;
   DepthFrame frame_;
+  UnreadableFrames unreadable_;
 };
 
 }  // namespace depthmocap

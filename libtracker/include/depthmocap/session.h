@@ -21,12 +21,13 @@ struct SessionOptions {
   // [s] (0 .. 1) each pose is steadied by the frames this long before and after it; none: 0.13 for a recording, as
   // `depthmocap replay`. A camera has no look-ahead.
   std::optional<double> look_ahead_s{};
-  double smooth = 0;                               // [0, 1] of the output filter; 0 = off
-  double seconds = 0;                              // [s] (>= 0) of a camera's time; 0 = until it ends or `stopped`
-  int people = 1;                                  // (1 .. 6) tracked at the same time
-  int threads = 2;                                 // (>= 1) for the tracker; results do not depend on it
-  std::function<bool()> stopped{};                 // asked between frames; true ends the run. May be empty
-  std::function<void(const std::string&)> warn{};  // told of each frame that cannot be read. May be empty
+  double smooth = 0;                // [0, 1] of the output filter; 0 = off
+  double seconds = 0;               // [s] (>= 0) of a camera's time; 0 = until it ends or `stopped`
+  int people = 1;                   // (1 .. 6) tracked at the same time
+  int threads = 2;                  // (>= 1) for the tracker; results do not depend on it
+  std::function<bool()> stopped{};  // asked between frames; true ends the run. May be empty
+  // Told at the end of a recording of frames that cannot be read, a line for each reason. May be empty.
+  std::function<void(const std::string&)> warn{};
 };
 
 // Tracks a recording or a camera from its source to your callback, as the program does. Not thread-safe.

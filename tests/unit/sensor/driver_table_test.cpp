@@ -111,9 +111,6 @@ TEST(DriverTable, KeepsTheShippedNamesAndWords) {
   EXPECT_EQ(table.check("v4l2:"), "v4l2 needs a device: v4l2:/dev/video0");
   EXPECT_EQ(table.check("replay"), "replay needs a recording: replay:REC");
   EXPECT_EQ(table.check("replay:C:/take"), "");
-  EXPECT_TRUE(table.guessesIntrinsics("v4l2:/dev/video0"));
-  EXPECT_FALSE(table.guessesIntrinsics("openni2"));
-  EXPECT_FALSE(table.guessesIntrinsics("replay:v4l2"));
 }
 
 // The driver's option `flag` set to `text`: what it says, and what it has set.

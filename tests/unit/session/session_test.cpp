@@ -129,7 +129,8 @@ TEST_F(Sessions, AFrameThatCannotBeReadIsEmptyAndSaid) {
                [&](const std::string& text) { warnings.push_back(text); },
                {}});
   EXPECT_EQ(log_, (std::vector<std::string>{"a0", "a1", "a2", "a3"}));
-  EXPECT_EQ(warnings.size(), 2U);
+  ASSERT_EQ(warnings.size(), 1U) << "one reason is one line";
+  EXPECT_NE(warnings[0].find("2 frames"), std::string::npos) << warnings[0];
   EXPECT_EQ(progress, 4U);
   EXPECT_EQ(a_.depths[1], 0.0F);
   EXPECT_NE(a_.depths[3], 0.0F);
