@@ -1,12 +1,18 @@
 #include "depthmocap/ik.h"
 
+#include <string>
+
 #include "depthmocap/error.h"
+#include "libtracker/core/config_fields.h"
 #include "libtracker/core/shipped_files.h"
 #include "libtracker/ik/ik_solver.h"
+#include "libtracker/skeleton/check_skeleton.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 namespace {
+
+constexpr double kLargestWeight = 1000;  // of a target; 1 is usual
 
 IkConfig configOf(const IkOptions& options) {
   IkConfig config;
@@ -23,11 +29,30 @@ std::shared_ptr<const LearnedPoses> learnedPoses(const IkOptions& options) {
       loadLearnedPoses(options.learned_poses.empty() ? shippedFile("pose_priors.bin") : options.learned_poses));
 }
 
+const Skeleton& checked(const Skeleton& skeleton) {
+  checkSkeleton(skeleton, "Actor");
+  return skeleton;
+}
+
+// The fields are open to everybody: what was put in without add() is looked at as add() does.
+void checkTargets(const JointTargets& targets) {
+  if (targets.count() == 0) throw Error("there is no target", "JointTargets", "add at least one");
+  JointTargets seen;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    if (!targets.given[j]) continue;
+    const std::string where = "JointTargets: " + std::string(kJointNames[j]);
+    const std::string wrong = seen.add(static_cast<Joint>(j), targets.p_world.col(static_cast<int>(j)));
+    if (!wrong.empty()) throw Error(wrong, where);
+    const double weight = targets.weight[j];
+    checkConfig(weight > 0 && weight <= kLargestWeight, where, "weight", weight, "above 0 and at most 1000");
+  }
+}
+
 }  // namespace
 
 struct Ik::Impl {
   Impl(const Skeleton& skeleton, const IkOptions& options)
-      : solver(skeleton, configOf(options), learnedPoses(options)) {}
+      : solver(checked(skeleton), configOf(options), learnedPoses(options)) {}
   IkSolver solver;
 };
 
@@ -38,7 +63,7 @@ Ik::Ik(Ik&&) noexcept = default;
 Ik& Ik::operator=(Ik&&) noexcept = default;
 
 IkResult Ik::solve(const JointTargets& targets) const {
-  if (targets.count() == 0) throw Error("there is no target", "JointTargets", "add at least one");
+  checkTargets(targets);
   return impl_->solver.solve(targets);
 }
 

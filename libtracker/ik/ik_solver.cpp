@@ -17,6 +17,8 @@ namespace {
 
 // Of the length of the variational code against what is lost on the way through it.
 constexpr double kCodeWeight = 0.2;
+// [m] for one unit of the prior: with more of it targets say nothing.
+constexpr double kLargestWeight_m = 10;
 
 std::unique_ptr<const PosePrior> priorOf(IkPrior prior, const LearnedPoses& learned) {
   switch (prior) {
@@ -43,7 +45,7 @@ struct Candidate {
 
 void IkConfig::validate() const {
   if (method != IkMethod::Lm && prior != IkPrior::None) throw Error("prior needs the method lm", "IkConfig");
-  checkConfig(weight_m >= 0, "IkConfig", "weight_m", weight_m, "at least 0");
+  checkConfig(weight_m >= 0 && weight_m <= kLargestWeight_m, "IkConfig", "weight_m", weight_m, "from 0 to 10");
   checkConfig(starts >= 1, "IkConfig", "starts", starts, "at least 1");
   checkConfig(lm.max_iterations >= 1, "IkConfig", "lm.max_iterations", lm.max_iterations, "at least 1");
 }

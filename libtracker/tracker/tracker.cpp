@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/check_camera.h"
 #include "libtracker/posedb/pose_database.h"
+#include "libtracker/skeleton/check_skeleton.h"
 #include "libtracker/tracker/stage_clock.h"
 #include "libtracker/tracker/tracker_impl.h"
 
@@ -17,23 +19,10 @@ void checkModels(const Models& models) {
   if (!models.database || models.database->poses.empty()) throw Error("there is no pose in it", "Models", advice);
 }
 
-void checkCamera(const CameraModel& camera) {
-  if (camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0) return;
-  throw Error(
-      fmt::format("{}x{} with focal lengths {} and {} is no camera", camera.width, camera.height, camera.fx, camera.fy),
-      "CameraModel", "take the camera of the recording or of the source");
-}
-
-void checkActor(const std::optional<Actor>& actor) {
-  if (!actor || actor->surface) return;
-  throw Error("the actor has no surface", "Actor", "take averageActor(), readActorFile() or a calibration's");
-}
-
-void checkSize(const DepthFrame& frame, const CameraModel& camera) {
-  if (frame.depth.width == camera.width && frame.depth.height == camera.height) return;
-  throw Error(fmt::format("the image is {}x{}, the camera's are {}x{}", frame.depth.width, frame.depth.height,
-                          camera.width, camera.height),
-              fmt::format("frame {}", frame.frame), "construct a Tracker with this camera's model");
+void checkActor(const Actor& actor) {
+  const char* advice = "take averageActor(), readActorFile() or a calibration's";
+  if (!actor.surface) throw Error("the actor has no surface", "Actor", advice);
+  checkSkeleton(actor.skeleton, "Actor");
 }
 
 }  // namespace
@@ -44,8 +33,8 @@ Tracker::Tracker(const Models& models, const CameraModel& camera, const std::opt
 Tracker::Tracker(const Models& models, const CameraModel& camera, const TrackerConfig& config,
                  const std::optional<Actor>& actor) {
   checkModels(models);
-  checkCamera(camera);
-  checkActor(actor);
+  checkCamera(camera, "CameraModel");
+  if (actor) checkActor(*actor);
   config.validate();
   impl_ = std::make_unique<Impl>(models, camera, config, actor);
 }
@@ -64,6 +53,7 @@ void Tracker::reset() {
 }
 
 void Tracker::lockOn(const Eigen::Vector3d& p_camera, int person) {
+  if (!p_camera.allFinite()) throw Error("the point is no number", "Tracker::lockOn");
   impl_->person(person).memory.forget(p_camera);
 }
 
@@ -78,7 +68,7 @@ std::span<const TrackedFrame* const> Tracker::people() const {
 
 const TrackedFrame& Tracker::process(const DepthFrame& frame) {
   Impl& t = *impl_;
-  checkSize(frame, t.scene.camera());
+  checkFrame(frame, t.scene.camera());
   StageClock clock(t.people.front()->out.ms);
   t.predict(frame);
 

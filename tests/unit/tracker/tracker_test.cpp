@@ -403,7 +403,7 @@ INSTANTIATE_TEST_SUITE_P(
                             empty.database = std::make_shared<const PoseDatabase>();
                             Tracker(empty, CameraModel{});
                           }},
-                    Wrong{"NoFocalLength", "is no camera",
+                    Wrong{"NoFocalLength", "\"fx\" must lie in",
                           [] {
                             CameraModel camera;
                             camera.fx = 0;
