@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/terminal/motion_options.h"
+#include "apps/terminal/output_check.h"
 #include "calibration/shape_space.h"
 #include "depthmocap/error.h"
 #include "libtracker/motion/motion_files.h"
@@ -39,6 +40,9 @@ std::vector<fs::path> oneMotionPerSkeleton(const fs::path& folder, const LoadOpt
 }
 
 void build(const ShapeSpaceOptions& o) {
+  OutputCheck check;
+  readsMotions(check, o.motions, o.load);
+  check.writes("--out", o.out);
   std::vector<BoneLengths> measured;
   for (const fs::path& motion : oneMotionPerSkeleton(o.motions, o.load)) {
     const RetargetResult result = retargetMotionFile(motion, o.load);

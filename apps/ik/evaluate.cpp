@@ -12,6 +12,7 @@
 
 #include "apps/ik/picture.h"
 #include "apps/ik/setup.h"
+#include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "depthmocap/error.h"
 #include "libtracker/ik/ik_experiment.h"
@@ -161,6 +162,9 @@ class Tables {
 };
 
 void evaluate(const EvaluateOptions& o) {
+  OutputCheck check;
+  for (const std::filesystem::path& input : {o.database, o.actor, o.priors}) check.reads(input);
+  check.writes("--picture", o.picture);
   Tables tables(o);
   tables.print();
   if (!o.picture.empty()) tables.draw();

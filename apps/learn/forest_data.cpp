@@ -107,6 +107,10 @@ void addDataOptions(CLI::App& command, DataOptions& data) {
   command.add_option("--threads", data.threads)->check(CLI::Range(1, 256))->capture_default_str();
 }
 
+void readsData(OutputCheck& check, const DataOptions& data) {
+  for (const std::string& file : data.pose_databases) check.reads(file);
+}
+
 ImageSet makeImageSet(const DataOptions& data, PoseUse use, std::size_t images) {
   const bool train = use == PoseUse::Train;
   const std::uint64_t seed = data.seed + (train ? 0 : kValidationSeed);

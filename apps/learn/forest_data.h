@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/terminal/output_check.h"
 #include "forest/render/room_view.h"
 #include "forest/train/pose_pool.h"
 #include "forest/train/rendered_image_source.h"
@@ -36,6 +37,9 @@ struct DataOptions {
 };
 
 void addDataOptions(CLI::App& command, DataOptions& data);
+
+// Tells `check` of the files that makeImageSet() reads.
+void readsData(OutputCheck& check, const DataOptions& data);
 
 // Bodies, poses and the images made of them.
 struct ImageSet {

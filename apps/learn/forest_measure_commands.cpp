@@ -11,6 +11,7 @@
 
 #include "apps/learn/forest_commands.h"
 #include "apps/learn/forest_data.h"
+#include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "depthmocap/error.h"
 #include "forest/train/forest_accuracy.h"
@@ -86,6 +87,11 @@ void printJointHits(const Forest& forest, const EvaluateCommand& c) {
 }
 
 void runEvaluate(const EvaluateCommand& c) {
+  OutputCheck check;
+  readsData(check, c.data);
+  check.reads(c.file);
+  check.readsRecording(c.recording);
+  check.writesFolder("--pictures", c.pictures);
   const Forest forest = loadForest(c.file);
   if (!c.references.empty()) {
     printJointHits(forest, c);

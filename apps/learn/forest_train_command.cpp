@@ -27,6 +27,10 @@ namespace fs = std::filesystem;
 
 constexpr int kProgressSteps = 1000;
 
+fs::path reportStem(fs::path out) {
+  return out.replace_extension();
+}
+
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -117,7 +121,11 @@ void prepareTraining(TrainCommand& c) {
   c.training.threads = c.data.threads;
   c.training.memory_bytes = static_cast<std::size_t>(c.memory_gb * 1e9);
   const fs::path out(c.out);
-  OutputCheck().writes("--out", out);
+  OutputCheck check;
+  readsData(check, c.data);
+  check.writes("--out", out);
+  for (const fs::path& report : trainingReportFiles(reportStem(out))) check.writes("the report", report);
+  check.writesFolder("--checkpoint", c.checkpoint_folder);
   if (!c.checkpoint_folder.empty()) {
     fs::create_directories(c.checkpoint_folder);
     c.training.checkpoint = fs::path(c.checkpoint_folder) / out.stem().replace_extension(".checkpoint");
@@ -144,7 +152,7 @@ void runTrain(TrainCommand c) {
   report.training_s = secondsSince(start) - report.render_s;
   const Forest forest = finishedForest(trained, c.finish, images.source->description());
   saveForest(forest, c.out);
-  const fs::path stem = fs::path(c.out).replace_extension();
+  const fs::path stem = reportStem(c.out);
   report.title = stem.filename().string();
   report.command = c.command_line;
   report.data = images.source->description();

@@ -6,6 +6,7 @@
 
 #include "apps/commands.h"
 #include "apps/terminal/motion_options.h"
+#include "apps/terminal/output_check.h"
 #include "libtracker/motion/motion_files.h"
 #include "libtracker/recording/track_files.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -39,6 +40,9 @@ void writeJoints(const MotionClip& clip, const fs::path& path) {
 }
 
 void show(const MotionOptions& o) {
+  OutputCheck check;
+  readsMotions(check, o.file, o.load);
+  check.writes("--joints", o.joints);
   const RetargetResult result = retargetMotionFile(o.file, o.load);
   printMotionWarnings(o.file, result.warnings);
   if (!o.joints.empty()) writeJoints(result.clip, o.joints);

@@ -12,7 +12,9 @@
 
 #include "apps/commands.h"
 #include "apps/learn/forest_data.h"
+#include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
+#include "apps/terminal/stop_request.h"
 #include "depthmocap/error.h"
 #include "forest/train/room_accuracy.h"
 #include "libtracker/core/atomic_file.h"
@@ -42,11 +44,16 @@ std::string packed(const TrainingImage& image) {
 }
 
 void drawRooms(const DataOptions& data, PoseUse use, std::size_t images, const std::string& out) {
+  OutputCheck check;
+  readsData(check, data);
+  check.writes("--out", out);
   const ImageSet set = makeImageSet(data, use, images);
   AtomicFile file(out);
+  const StopRequest on_ctrl_c;
   Progress bar("rendering", images);
   std::vector<std::string> pictures;
   for (std::size_t first = 0; first < images; first += kPicturesATime) {
+    if (StopRequest::made()) throw Error("stopped before the end; nothing was written", out);
     pictures.assign(std::min(kPicturesATime, images - first), {});
     parallelFor(data.threads, pictures.size(), [&](std::size_t i) {
       TrainingImage image;

@@ -22,17 +22,25 @@ void handle(int signal_number, void (*handler)(int)) {
   sigaction(signal_number, &action, nullptr);
 }
 
+bool isIgnored(int signal_number) {
+  struct sigaction action = {};
+  sigaction(signal_number, nullptr, &action);
+  return action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 StopRequest::StopRequest() {
   stop_requested = false;
   handle(SIGINT, onSignal);
   handle(SIGTERM, onSignal);
+  if (!isIgnored(SIGHUP)) handle(SIGHUP, onSignal);  // as by nohup
 }
 
 StopRequest::~StopRequest() {
   handle(SIGINT, SIG_DFL);
   handle(SIGTERM, SIG_DFL);
+  if (!isIgnored(SIGHUP)) handle(SIGHUP, SIG_DFL);
 }
 
 bool StopRequest::made() {

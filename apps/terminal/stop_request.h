@@ -2,8 +2,8 @@
 
 namespace depthmocap {
 
-// Turns Ctrl-C (SIGINT) and SIGTERM into a request to stop, so that outputs are completed. The second Ctrl-C ends the
-// program at once. One object at a time.
+// Turns Ctrl-C (SIGINT), SIGTERM and, unless it is ignored, SIGHUP of a terminal that closes into a request to stop, so
+// that outputs are completed. The second Ctrl-C ends the program at once. One object at a time.
 class StopRequest {
  public:
   StopRequest();

@@ -57,12 +57,15 @@ std::string curveTable(const std::string& what, const std::vector<CurvePoint>& c
 
 }  // namespace
 
+std::array<std::filesystem::path, 2> trainingReportFiles(const std::filesystem::path& stem) {
+  std::filesystem::path text = stem;
+  std::filesystem::path picture = stem;
+  return {text += ".report.md", picture += ".report.png"};
+}
+
 void writeTrainingReport(const TrainingReport& report, const Forest& forest, std::uintmax_t forest_bytes,
                          const std::filesystem::path& stem) {
-  std::filesystem::path picture = stem;
-  picture += ".report.png";
-  std::filesystem::path text_path = stem;
-  text_path += ".report.md";
+  const auto [text_path, picture] = trainingReportFiles(stem);
   const ConfusionMatrix& confusion = report.accuracy.all;
   std::string text = fmt::format("# {}\n\nMade by\n\n```\n{}\n```\n\n", report.title, report.command);
   text += fmt::format("Trained on {}. Measured on {}.\n\n", report.data, report.validation);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,7 +27,10 @@ struct TrainingReport {
   std::vector<CurvePoint> by_trees, by_depth, by_images;
 };
 
-// Writes `stem`.report.md and `stem`.report.png (confusion matrix and learning curves). Throws Error.
+// `stem`.report.md and `stem`.report.png.
+std::array<std::filesystem::path, 2> trainingReportFiles(const std::filesystem::path& stem);
+
+// Writes them: figures, and a picture of confusion matrix and learning curves. Throws Error.
 void writeTrainingReport(const TrainingReport& report, const Forest& forest, std::uintmax_t forest_bytes,
                          const std::filesystem::path& stem);
 
