@@ -13,6 +13,7 @@
 #include "libtracker/motion/asf_amc.h"
 #include "libtracker/motion/bone_roles.h"
 #include "libtracker/motion/bvh.h"
+#include "libtracker/motion/mirrored_sides.h"
 #include "libtracker/motion/standing_rest.h"
 #include "libtracker/motion/text_scanner.h"
 
@@ -122,8 +123,12 @@ void addFitWarnings(RetargetResult& result) {
 RetargetResult retargetMotionFile(const fs::path& path, const LoadOptions& options) {
   options.validate();
   SourceMotion motion = readMotionFile(path, options);
-  const NamedBones named = namedBones(motion.bones, options.bones, path.string());
+  NamedBones named = namedBones(motion.bones, options.bones, path.string());
   findBoneRoles(meanBones(motion), named, path.string());  // Error where a part is missing
+  if (sidesAreMirrored(motion, named)) {
+    std::swap(named.left, named.right);
+    motion.warnings.push_back("knees and toes point backwards, as in a mirrored file: left is taken for right");
+  }
   motion = withStandingRest(std::move(motion), named);
   const double metres_per_unit = metresPerUnit(motion, named, path, options);
   if (options.repair_first_frame) repairFirstFrame(motion, metres_per_unit);

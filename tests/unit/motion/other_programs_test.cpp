@@ -6,6 +6,7 @@
 #include "libtracker/motion/asf_amc.h"
 #include "libtracker/motion/bvh.h"
 #include "libtracker/motion/bvh_writer.h"
+#include "libtracker/motion/mirrored_sides.h"
 #include "libtracker/motion/motion_files.h"
 #include "libtracker/motion/standing_rest.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -95,6 +96,24 @@ TEST_F(OtherPrograms, RowsAreReadWhateverIsAnnounced) {
   expectBase(replacedAll(base_text_, "Frames: +24", "Frames: 23"), "announces 23");
   expectBase(replacedAll(base_text_, "Frames: +24", "Frames: 0"), "announces 0");
   expectBase(base_text_.substr(0, base_text_.rfind(' ')), "cut short", kFrames - 1);
+}
+
+TEST_F(OtherPrograms, SidesOfMirroredFilesAreExchanged) {
+  const std::string half = replacedAll(base_text_, "Left", "Other");
+  expectBase(replacedAll(replacedAll(half, "Right", "Left"), "Other", "Right"), "mirrored");
+}
+
+// A program that mirrors a motion by a scale of -1 turns the body, too: its names are right, its geometry is not.
+TEST_F(OtherPrograms, MirroredGeometryIsSeen) {
+  SourceMotion motion = readBvh(file("base.bvh"), 30.0);
+  const NamedBones named = namedBones(motion.bones, {}, "base");
+  EXPECT_FALSE(sidesAreMirrored(motion, named));
+  for (MotionBone& bone : motion.bones) bone.offset.x() *= -1;
+  for (MotionFrame& frame : motion.frames) {
+    for (Vector3d& p : frame.position) p.x() *= -1;
+    for (Eigen::Quaterniond& q : frame.rotation) q = Eigen::Quaterniond(q.w(), q.x(), -q.y(), -q.z());
+  }
+  EXPECT_TRUE(sidesAreMirrored(motion, named));
 }
 
 TEST_F(OtherPrograms, FrameTimesInOtherUnits) {
