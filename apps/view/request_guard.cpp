@@ -42,6 +42,21 @@ bool isToken(std::string_view text) {
   });
 }
 
+bool isOrigin(std::string_view text) {
+  constexpr std::size_t kLongest = 256;
+  constexpr std::string_view kSigns = "-._:[]";
+  const std::size_t colon = text.find("://");
+  if (text.size() > kLongest || (text.substr(0, colon) != "http" && text.substr(0, colon) != "https")) return false;
+  const std::string_view host = text.substr(colon + 3);
+  return !host.empty() && std::ranges::all_of(host, [&](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || kSigns.find(c) != std::string_view::npos;
+  });
+}
+
+bool isAllowedOrigin(std::string_view origin, const GuardConfig& config) {
+  return std::ranges::find(config.allowed_origins, origin) != config.allowed_origins.end();
+}
+
 std::string_view pathOf(std::string_view target) {
   return target.substr(0, target.find('?'));
 }
@@ -69,10 +84,11 @@ std::string refusal(const RequestClaim& claim, const GuardConfig& config) {
   if (isLoopback(config.address) && !isOwnLoopbackName(claim.host, config)) {
     return "this server answers only to its own address and localhost";
   }
-  if (!claim.origin.empty() && claim.origin != fmt::format("http://{}", claim.host)) {
-    return "pages of other origins are not answered";
+  const bool own_page = claim.origin.empty() || claim.origin == fmt::format("http://{}", claim.host);
+  if (!own_page && !isAllowedOrigin(claim.origin, config)) {
+    return "pages of other origins are not answered; --allow-origin lets one in";
   }
-  if (config.token.empty()) return {};
+  if (config.token.empty() || claim.preflight) return {};
   std::string_view given = queryValue(claim.target, "token");
   if (claim.authorization.substr(0, kBearer.size()) == kBearer) given = claim.authorization.substr(kBearer.size());
   if (!sameToken(given, config.token)) return "the token is missing or wrong";

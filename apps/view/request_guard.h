@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace depthmocap {
 
@@ -11,17 +12,25 @@ struct RequestClaim {
   std::string_view host = {};
   std::string_view origin = {};
   std::string_view authorization = {};
+  bool preflight = false;  // a browser asks whether a page may ask; it sends no token with that
 };
 
 struct GuardConfig {
   std::string address = "127.0.0.1";  // that the server listens on
   std::uint16_t port = 0;
-  std::string token = {};  // empty: none is asked for
+  std::string token = {};                         // empty: none is asked for
+  std::vector<std::string> allowed_origins = {};  // of pages besides its own that may use the server (isOrigin())
 };
 
 // Why a request must not be answered; empty if it may. Host names other than the server's own are refused on loopback
-// (DNS rebinding), foreign origins always, and a missing or wrong token where one is asked for.
+// (DNS rebinding), origins that are neither its own nor allowed, and a missing or wrong token where one is asked for.
 std::string refusal(const RequestClaim& claim, const GuardConfig& config);
+
+// Whether a text is the origin of a page as browsers send it: scheme://host[:port] in small letters. "*" is none: pages
+// are let in by name.
+bool isOrigin(std::string_view text);
+// Whether a page of this origin was let in by name.
+bool isAllowedOrigin(std::string_view origin, const GuardConfig& config);
 
 // "/a/b" of "/a/b?c=d".
 std::string_view pathOf(std::string_view target);

@@ -44,6 +44,7 @@ constexpr std::chrono::milliseconds kAcceptPause{100};  // where the system has 
 constexpr int kMostAside = 32;                          // requests that wait for the slow handlers
 constexpr std::uint32_t kMaxHeaderBytes = 8 * 1024;
 constexpr const char* kStreamPath = "/stream";
+constexpr const char* kPreflightAge = "600";  // [s] that a browser may keep what a preflight said
 
 using Request = http::request<http::string_body>;
 using Response = http::response<http::string_body>;
@@ -55,6 +56,12 @@ std::string_view view(beast::string_view text) {
 WebContent errorContent(int status, const std::string& text) {
   const auto replace = nlohmann::json::error_handler_t::replace;
   return {"application/json", nlohmann::json{{"error", text}}.dump(-1, ' ', false, replace), status};
+}
+
+// A worker gives way to the tracker from its first request on.
+void runWorkerInBackground() {
+  thread_local const bool done = (runInBackground(), true);
+  (void)done;
 }
 
 template <typename Header>
@@ -83,6 +90,10 @@ struct WebServer::Impl {
   WebContent answer(const Request& request);
   // What a request is refused with by its header alone; nothing if it may be read on.
   [[nodiscard]] std::optional<WebContent> refused(const http::request_header<>& header) const;
+  // Whether a browser asks if a page of an allowed origin may send a request.
+  [[nodiscard]] bool isPreflight(const http::request_header<>& header) const;
+  // Tells a browser that a page of an allowed origin may read the response, and what it may ask.
+  void allowOrigin(Response& response, const http::request_header<>& header) const;
 
   WebServerConfig config;
   GuardConfig guard;
@@ -97,9 +108,9 @@ struct WebServer::Impl {
   };
   std::map<std::string, File> files;
   std::map<std::pair<http::verb, std::string>, Handler> handlers;
-  std::set<std::string> aside;  // paths whose POST is answered by the worker
+  std::set<std::string> aside;  // paths whose POST is answered by a worker
   StreamHub stream;
-  asio::thread_pool worker{1};
+  asio::thread_pool workers{static_cast<std::size_t>(config.workers)};
   std::thread thread;
 };
 
@@ -148,6 +159,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const auto& header = parser_->get();
     if (const auto refused = server_.refused(header)) {
       Response response = responseOf(*refused, header);
+      server_.allowOrigin(response, header);
       response.keep_alive(false);  // a body that was not read may follow
       return write(std::move(response));
     }
@@ -173,16 +185,25 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const std::string path(pathOf(view(request.target())));
     if (websocket::is_upgrade(request) && path == kStreamPath) return upgrade(request);
     if (request.method() == http::verb::post && server_.aside.contains(path)) return answerAside(std::move(request));
-    write(responseOf(server_.answer(request), request));
+    write(answerTo(request));
+  }
+  [[nodiscard]] Response answerTo(const Request& request) {
+    const bool preflight = server_.isPreflight(request);
+    Response response = responseOf(preflight ? WebContent{"text/plain", "", 204} : server_.answer(request), request);
+    server_.allowOrigin(response, request);
+    return response;
   }
   void answerAside(Request request) {
     if (server_.waiting_aside >= kMostAside) {
-      return write(responseOf(errorContent(503, "too many requests are waiting"), request));
+      Response response = responseOf(errorContent(503, "too many requests are waiting"), request);
+      server_.allowOrigin(response, request);
+      return write(std::move(response));
     }
     ++server_.waiting_aside;
-    // The connection goes over to the worker and back whole: it must end on the server's thread.
-    asio::post(server_.worker, [self = shared_from_this(), request = std::move(request)]() mutable {
-      self->response_ = responseOf(self->server_.answer(request), request);
+    // The connection goes over to a worker and back whole: it must end on the server's thread.
+    asio::post(server_.workers, [self = shared_from_this(), request = std::move(request)]() mutable {
+      runWorkerInBackground();
+      self->response_ = self->answerTo(request);
       asio::io_context& io = self->server_.io;
       asio::post(io, [self = std::move(self)] {
         --self->server_.waiting_aside;
@@ -219,10 +240,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 };
 
 WebServer::Impl::Impl(WebServerConfig c) : config(std::move(c)), pool(config.max_connections) {
-  DMC_CHECK(config.max_connections >= 2 && config.max_streams >= 1);
+  DMC_CHECK(config.max_connections >= 2 && config.max_streams >= 1 && config.workers >= 1);
   stream.most = config.max_streams;
   listen();
-  guard = {config.address, acceptor.local_endpoint().port(), config.token};
+  guard = {config.address, acceptor.local_endpoint().port(), config.token, config.allowed_origins};
 }
 
 void WebServer::Impl::listen() {
@@ -235,6 +256,11 @@ void WebServer::Impl::listen() {
   }
   if (!config.token.empty() && !isToken(config.token)) {
     throw Error("the token must be 1 to 128 letters, digits and -._~", where, "it stands in the page's address");
+  }
+  for (const std::string& origin : config.allowed_origins) {
+    if (!isOrigin(origin)) {
+      throw Error("is no origin of a page", "--allow-origin " + origin, "for example http://localhost:3000, no path");
+    }
   }
   const tcp::endpoint endpoint(address, config.port);
   acceptor.open(endpoint.protocol(), failure);
@@ -268,11 +294,33 @@ std::optional<WebContent> WebServer::Impl::refused(const http::request_header<>&
   GuardConfig asked = guard;
   const auto file = files.find(std::string(pathOf(view(header.target()))));
   if (file != files.end() && file->second.open) asked.token.clear();
-  const std::string why = refusal({view(header.target()), view(header[http::field::host]),
-                                   view(header[http::field::origin]), view(header[http::field::authorization])},
-                                  asked);
+  const std::string why =
+      refusal({view(header.target()), view(header[http::field::host]), view(header[http::field::origin]),
+               view(header[http::field::authorization]), isPreflight(header)},
+              asked);
   if (why.empty()) return std::nullopt;
   return errorContent(403, why);
+}
+
+bool WebServer::Impl::isPreflight(const http::request_header<>& header) const {
+  return header.method() == http::verb::options && header.count(http::field::access_control_request_method) > 0 &&
+         isAllowedOrigin(view(header[http::field::origin]), guard);
+}
+
+void WebServer::Impl::allowOrigin(Response& response, const http::request_header<>& header) const {
+  if (guard.allowed_origins.empty()) return;
+  response.set(http::field::vary, "Origin");
+  const beast::string_view origin = header[http::field::origin];
+  if (!isAllowedOrigin(view(origin), guard)) return;
+  response.set(http::field::access_control_allow_origin, origin);
+  if (!isPreflight(header)) return;
+  response.set(http::field::access_control_allow_methods, "GET, HEAD, POST");
+  response.set(http::field::access_control_allow_headers, "authorization, content-type");
+  response.set(http::field::access_control_max_age, kPreflightAge);
+  // Of pages on the internet that ask a computer of the user's own network.
+  if (header.count("Access-Control-Request-Private-Network") > 0) {
+    response.set("Access-Control-Allow-Private-Network", "true");
+  }
 }
 
 WebContent WebServer::Impl::answer(const Request& request) {
@@ -298,8 +346,8 @@ WebServer::WebServer(WebServerConfig config) : impl_(std::make_unique<Impl>(std:
 
 WebServer::~WebServer() {
   if (!impl_->thread.joinable()) return;
-  impl_->worker.stop();
-  impl_->worker.join();
+  impl_->workers.stop();
+  impl_->workers.join();
   impl_->io.stop();
   impl_->thread.join();
   impl_->stream.clear();
@@ -330,9 +378,14 @@ void WebServer::setGreeting(std::function<std::string()> greeting) {
   impl_->stream.greeting = std::move(greeting);
 }
 
+std::vector<std::pair<std::string, std::string>> WebServer::routes() const {
+  std::vector<std::pair<std::string, std::string>> routes = {{kStreamPath, "GET"}};
+  for (const auto& [route, handler] : impl_->handlers) routes.emplace_back(route.second, http::to_string(route.first));
+  return routes;
+}
+
 void WebServer::start() {
   impl_->accept();
-  asio::post(impl_->worker, runInBackground);
   impl_->thread = std::thread([this] {
     runInBackground();
     impl_->io.run();

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace depthmocap {
 
@@ -23,7 +24,10 @@ struct WebServerConfig {
   // Empty: none is asked for.
   std::string token = {};
   int max_connections = 32;  // (>= 2) with a request on its way; one more takes the place of the slowest
-  int max_streams = 16;      // (>= 1) clients of /stream; one more takes the place of the quietest
+  // Origins of other pages that may use the server, as "http://localhost:3000" (CORS). "*" is refused.
+  std::vector<std::string> allowed_origins = {};
+  int workers = 1;       // (>= 1) requests of onPostAside() that are answered at once
+  int max_streams = 16;  // (>= 1) clients of /stream; one more takes the place of the quietest
 };
 
 // Serves HTTP and WebSocket (Boost.Beast) on a thread of its own. Everything that a client can make grow is bounded:
@@ -33,8 +37,8 @@ struct WebServerConfig {
 // than two that it has not confirmed.
 //
 // A request is judged by its header alone: what is refused has no body read. It is answered only for the host names
-// that the address has, and where an Origin is named it must be the server's own: pages of others cannot reach it. What
-// is wrong gets a 4xx answer with {"error": "..."}.
+// that the address has, and where an Origin is named it must be the server's own or an allowed one: pages of others
+// cannot reach it. What is wrong gets a 4xx answer with {"error": "..."}.
 class WebServer {
  public:
   // Called on the server's thread, but for onPostAside(). A handler that throws Error answers 400 with its text.
@@ -42,7 +46,8 @@ class WebServer {
   // A text message of a client; the answer, if any, goes to that client.
   using TextHandler = std::function<std::string(const std::string& text)>;
 
-  // Error where the address cannot be used, or is no loopback and there is no token, or the token is none (isToken()).
+  // Error where the address cannot be used, or is no loopback and there is no token, or the token is none (isToken()),
+  // or an allowed origin is none (isOrigin()).
   explicit WebServer(WebServerConfig config);
   ~WebServer();
   WebServer(const WebServer&) = delete;
@@ -53,13 +58,16 @@ class WebServer {
   void serveFile(const std::string& path, WebContent content, bool open = false);
   void onGet(const std::string& path, Handler handler);
   void onPost(const std::string& path, Handler handler);
-  // The same for what takes longer than a stream may wait: the handler runs on a thread of its own, one request at a
-  // time, in the background.
+  // The same for what takes longer than a stream may wait: the handler runs on threads of its own, `workers` requests
+  // at a time, in the background.
   void onPostAside(const std::string& path, Handler handler);
   void onText(TextHandler handler);
   // What every client of /stream is sent first.
   void setGreeting(std::function<std::string()> greeting);
   void start();
+
+  // Path and method of every handler, and /stream; the files of serveFile() are not among them.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> routes() const;
 
   // Any thread. A frame (binary) for all clients of /stream, dropped where one still waits.
   void sendFrame(std::shared_ptr<const std::string> frame);

@@ -39,6 +39,46 @@ TEST(RequestGuard, RefusesForeignOrigins) {
   }
 }
 
+TEST(RequestGuard, LetsInTheOriginsThatAreNamed) {
+  GuardConfig config = kLocal;
+  config.allowed_origins = {"http://localhost:3000", "https://studio.example"};
+  const auto from = [&](std::string_view origin) {
+    return refusal({.target = "/ik", .host = "localhost:8010", .origin = origin}, config);
+  };
+  for (const char* origin : {"", "http://localhost:8010", "http://localhost:3000", "https://studio.example"}) {
+    EXPECT_EQ(from(origin), "") << origin;
+  }
+  for (const char* origin :
+       {"http://localhost:3001", "https://localhost:3000", "http://studio.example", "https://studio.example.evil",
+        "https://evil.example", "https://studio.exampl", "null", "*"}) {
+    EXPECT_NE(from(origin), "") << origin;
+  }
+  // Another host name is still refused: an origin that is let in is no way around it.
+  EXPECT_NE(refusal({.target = "/ik", .host = "evil.example", .origin = "https://studio.example"}, config), "");
+}
+
+TEST(RequestGuard, KnowsWhatCanBeAnOrigin) {
+  for (const char* origin : {"http://localhost:3000", "https://studio.example", "http://[::1]:80", "http://10.0.0.2"}) {
+    EXPECT_TRUE(isOrigin(origin)) << origin;
+  }
+  for (const char* origin : {"", "*", "null", "localhost:3000", "http://", "http://a/", "http://a/b", "HTTP://a",
+                             "http://A", "http://a b", "http://a\r\nX: y", "file://x", "https"}) {
+    EXPECT_FALSE(isOrigin(origin)) << origin;
+  }
+  EXPECT_FALSE(isOrigin("http://" + std::string(300, 'a')));
+}
+
+TEST(RequestGuard, AsksForNoTokenInAPreflight) {
+  GuardConfig config = kOpen;
+  config.allowed_origins = {"https://studio.example"};
+  RequestClaim claim{.target = "/ik", .host = "mocap.lan:8010", .origin = "https://studio.example"};
+  EXPECT_NE(refusal(claim, config), "");
+  claim.preflight = true;
+  EXPECT_EQ(refusal(claim, config), "");
+  claim.origin = "https://evil.example";
+  EXPECT_NE(refusal(claim, config), "");
+}
+
 TEST(RequestGuard, AsksForTheToken) {
   const auto with = [](std::string_view target, std::string_view authorization) {
     return refusal({.target = target, .host = "mocap.lan:8010", .authorization = authorization}, kOpen);

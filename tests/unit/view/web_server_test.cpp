@@ -107,6 +107,76 @@ TEST_F(RunningServer, EndsWhileASlowHandlerWorks) {
   start({.port = 0});
 }
 
+constexpr const char* kOrigin = "Origin: http://localhost:3000\r\n";
+
+TEST_F(RunningServer, KeepsOtherOriginsOutUnlessTheyAreNamed) {
+  EXPECT_EQ(ask("POST", "/echo", kOrigin, "x").rfind("HTTP/1.1 403", 0), 0U);
+  EXPECT_EQ(ask("OPTIONS", "/echo", std::string(kOrigin) + "Access-Control-Request-Method: POST\r\n")
+                .rfind("HTTP/1.1 403", 0),
+            0U);
+  EXPECT_EQ(ask("POST", "/echo", "", "x").find("Access-Control"), std::string::npos);
+}
+
+TEST_F(RunningServer, LetsPagesOfANamedOriginReadItsAnswers) {
+  server_.reset();
+  start({.port = 0, .allowed_origins = {"http://localhost:3000"}});
+  const std::string allowed = "Access-Control-Allow-Origin: http://localhost:3000\r\n";
+  const std::string answer = ask("POST", "/echo", kOrigin, "some text");
+  EXPECT_EQ(answer.rfind("HTTP/1.1 200", 0), 0U);
+  EXPECT_NE(answer.find(allowed), std::string::npos) << answer;
+  EXPECT_NE(answer.find("Vary: Origin\r\n"), std::string::npos) << answer;
+  // What went wrong is to be read by the page, too; also what a worker answers.
+  EXPECT_NE(ask("POST", "/echo", kOrigin, "bad").find(allowed), std::string::npos);
+  may_end_ = true;
+  EXPECT_NE(ask("POST", "/slow", kOrigin, "work").find(allowed), std::string::npos);
+  EXPECT_EQ(ask("POST", "/echo", "", "x").find("Access-Control-Allow-Origin"), std::string::npos);
+  const std::string other = ask("POST", "/echo", "Origin: http://evil.example\r\n", "x");
+  EXPECT_EQ(other.rfind("HTTP/1.1 403", 0), 0U);
+  EXPECT_EQ(other.find("Access-Control-Allow-Origin"), std::string::npos);
+}
+
+TEST_F(RunningServer, AnswersThePreflightOfANamedOrigin) {
+  server_.reset();
+  start({.port = 0, .token = "secret", .allowed_origins = {"http://localhost:3000"}});
+  const std::string asks = "Access-Control-Request-Method: POST\r\nAccess-Control-Request-Headers: content-type\r\n";
+  const std::string answer = ask("OPTIONS", "/echo", kOrigin + asks);
+  EXPECT_EQ(answer.rfind("HTTP/1.1 204", 0), 0U) << answer;
+  EXPECT_NE(answer.find("Access-Control-Allow-Methods: GET, HEAD, POST\r\n"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("Access-Control-Allow-Headers: authorization, content-type\r\n"), std::string::npos);
+  EXPECT_EQ(answer.find("Private-Network"), std::string::npos);
+  EXPECT_NE(ask("OPTIONS", "/echo", kOrigin + asks + "Access-Control-Request-Private-Network: true\r\n")
+                .find("Access-Control-Allow-Private-Network: true\r\n"),
+            std::string::npos);
+  // The preflight needs no token, what follows does.
+  EXPECT_EQ(ask("POST", "/echo", kOrigin, "x").rfind("HTTP/1.1 403", 0), 0U);
+  EXPECT_EQ(ask("OPTIONS", "/echo", "Origin: http://evil.example\r\n" + asks).rfind("HTTP/1.1 403", 0), 0U);
+  EXPECT_EQ(ask("OPTIONS", "/echo?token=secret").rfind("HTTP/1.1 405", 0), 0U);
+  server_.reset();
+  start({.port = 0});
+}
+
+TEST_F(RunningServer, TakesNoOriginThatIsNone) {
+  const std::string error = errorOf([] { const WebServer server({.port = 0, .allowed_origins = {"*"}}); });
+  EXPECT_NE(error.find("is no origin of a page"), std::string::npos) << error;
+}
+
+TEST_F(RunningServer, AnswersSeveralSlowRequestsAtOnce) {
+  std::atomic<int> inside{0};
+  server_.reset();
+  server_ = std::make_unique<WebServer>(WebServerConfig{.port = 0, .workers = 2});
+  server_->serveFile("/", {"text/html", "<p>page</p>"});
+  server_->onPostAside("/meet", [&](const std::string&) {
+    ++inside;
+    for (int i = 0; i < 500 && inside < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return WebContent{"text/plain", inside == 2 ? "both" : "alone"};
+  });
+  server_->start();
+  const Connection first(server_->port());
+  first.send("POST /meet HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\nContent-Length: 1\r\n\r\nx");
+  EXPECT_NE(ask("POST", "/meet", "", "x").find("both"), std::string::npos);
+  EXPECT_NE(first.receive(1 << 20).find("both"), std::string::npos);
+}
+
 TEST_F(RunningServer, BoundsWhatIsSent) {
   EXPECT_EQ(ask("POST", "/echo", "", std::string(100000, 'x')).rfind("HTTP/1.1 413", 0), 0U);
   EXPECT_EQ(ask("GET", "/", "X: " + std::string(20000, 'x') + "\r\n").rfind("HTTP/1.1 413", 0), 0U);
