@@ -17,77 +17,84 @@ constexpr double kGainTolerance = 1e-5;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The quadratic model about x: A = J^T J, g = J^T E.
-struct Model {
-  MatrixXd A;
-  VectorXd g;
+}  // namespace
 
-  void build(const MatrixXd& J, const VectorXd& E) {
-    A.setZero(J.cols(), J.cols());
-    A.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
-    A.triangularView<Eigen::StrictlyUpper>() = A.transpose();
-    g.noalias() = J.transpose() * E;
-  }
-  // What the model says that a step lowers 1/2 |E|^2 by.
-  [[nodiscard]] double gainOf(const VectorXd& step) const { return -step.dot(g) - 0.5 * step.dot(A * step); }
-};
+void LevenbergMarquardt::Model::build(const MatrixXd& J, const VectorXd& E) {
+  A.setZero(J.cols(), J.cols());
+  A.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+  A.triangularView<Eigen::StrictlyUpper>() = A.transpose();
+  g.noalias() = J.transpose() * E;
+}
 
-// -(A + mu I)^-1 g over the parameters that may move; 0 for the others.
-VectorXd dampedStep(const Model& model, double mu, const VectorXd& x, const VectorXd& lower, const VectorXd& upper) {
-  MatrixXd damped = model.A;
-  VectorXd g = model.g;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const bool rests = (x[i] <= lower[i] && g[i] > 0) || (x[i] >= upper[i] && g[i] < 0);
+double LevenbergMarquardt::Model::gainOf(const VectorXd& step) const {
+  return -step.dot(g) - 0.5 * step.dot(A * step);
+}
+
+LevenbergMarquardt::LevenbergMarquardt(LeastSquaresProblem& problem, const VectorXd& start)
+    : problem_(&problem),
+      lower_(problem.lower()),
+      upper_(problem.upper()),
+      x_(start.cwiseMax(lower_).cwiseMin(upper_)),
+      E_(problem.residuals()),
+      E_new_(problem.residuals()),
+      J_(problem.residuals(), problem.parameters()) {
+  problem_->evaluate(x_, E_, &J_);
+  summary_.energy = 0.5 * E_.squaredNorm();
+  model_.build(J_, E_);
+  mu_ = kFirstDamping * std::max(1e-12, model_.A.diagonal().maxCoeff());
+}
+
+VectorXd LevenbergMarquardt::dampedStep() const {
+  MatrixXd damped = model_.A;
+  VectorXd g = model_.g;
+  for (Eigen::Index i = 0; i < x_.size(); ++i) {
+    const bool rests = (x_[i] <= lower_[i] && g[i] > 0) || (x_[i] >= upper_[i] && g[i] < 0);
     if (rests) {
       damped.row(i).setZero();
       damped.col(i).setZero();
       g[i] = 0;
       damped(i, i) = 1;
     }
-    damped(i, i) += mu;
+    damped(i, i) += mu_;
   }
   return -damped.llt().solve(g);
 }
 
-}  // namespace
+bool LevenbergMarquardt::step() {
+  const VectorXd x_new = (x_ + dampedStep()).cwiseMax(lower_).cwiseMin(upper_);
+  const VectorXd step = x_new - x_;
+  if (!(step.norm() > kStepTolerance)) return false;  // also where the numbers left the range of double
+  problem_->evaluate(x_new, E_new_, nullptr);
+  const double gain = summary_.energy - 0.5 * E_new_.squaredNorm();
+  const double rho = gain / std::max(model_.gainOf(step), 1e-300);
+  if (!(rho > 0)) {
+    mu_ *= nu_;
+    nu_ *= 2.0;
+    return true;
+  }
+  x_ = x_new;
+  const bool is_done = gain <= kGainTolerance * summary_.energy;
+  summary_.energy -= gain;
+  if (is_done) return false;
+  problem_->evaluate(x_, E_, &J_);
+  model_.build(J_, E_);
+  mu_ *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * rho - 1.0, 3));
+  nu_ = 2.0;
+  return true;
+}
+
+void LevenbergMarquardt::run(int max_iterations) {
+  while (!done_ && summary_.iterations < max_iterations) {
+    ++summary_.iterations;
+    done_ = !step();
+  }
+}
 
 LmSummary levenbergMarquardt(LeastSquaresProblem& problem, const LmConfig& config, VectorXd& x) {
-  const VectorXd lower = problem.lower();
-  const VectorXd upper = problem.upper();
-  x = x.cwiseMax(lower).cwiseMin(upper);
-  VectorXd E(problem.residuals());
-  VectorXd E_new(problem.residuals());
-  MatrixXd J(problem.residuals(), problem.parameters());
-  problem.evaluate(x, E, &J);
-  LmSummary summary;
-  summary.energy = 0.5 * E.squaredNorm();
-  Model model;
-  model.build(J, E);
-  double mu = kFirstDamping * std::max(1e-12, model.A.diagonal().maxCoeff());
-  double nu = 2.0;
-  while (summary.iterations < config.max_iterations) {
-    ++summary.iterations;
-    const VectorXd x_new = (x + dampedStep(model, mu, x, lower, upper)).cwiseMax(lower).cwiseMin(upper);
-    const VectorXd step = x_new - x;
-    if (!(step.norm() > kStepTolerance)) break;  // also where the numbers left the range of double
-    problem.evaluate(x_new, E_new, nullptr);
-    const double gain = summary.energy - 0.5 * E_new.squaredNorm();
-    const double rho = gain / std::max(model.gainOf(step), 1e-300);
-    if (!(rho > 0)) {
-      mu *= nu;
-      nu *= 2.0;
-      continue;
-    }
-    x = x_new;
-    const bool is_done = gain <= kGainTolerance * summary.energy;
-    summary.energy -= gain;
-    if (is_done) break;
-    problem.evaluate(x, E, &J);
-    model.build(J, E);
-    mu *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * rho - 1.0, 3));
-    nu = 2.0;
-  }
-  return summary;
+  LevenbergMarquardt solve(problem, x);
+  solve.run(config.max_iterations);
+  x = solve.x();
+  return solve.summary();
 }
 
 }  // namespace depthmocap

@@ -27,16 +27,15 @@ void VariationalPrior::evaluate(const PoseShape& shape, Eigen::Ref<Eigen::Vector
   const int code = coder_.decoder.inputs();
   Eigen::MatrixXf J_encoder;
   Eigen::MatrixXf J_decoder;
-  const Eigen::VectorXf z = coder_.encoder.evaluate(x, J == nullptr ? nullptr : &J_encoder).head(code);
+  const Eigen::VectorXf z = coder_.encoder.evaluate(x, J == nullptr ? nullptr : &J_encoder, code).head(code);
   const Eigen::VectorXf rebuilt = coder_.decoder.evaluate(z, J == nullptr ? nullptr : &J_decoder);
   r.head<kShapeDofCount>() = (x - rebuilt).cast<double>();
   r.tail(code) = code_weight_ * z.cast<double>();
   if (J == nullptr) return;
-  const Eigen::MatrixXf J_code = J_encoder.topRows(code);
   J->resize(rows(), kShapeDofCount);
   J->topRows(kShapeDofCount) =
-      (Eigen::MatrixXf::Identity(kShapeDofCount, kShapeDofCount) - J_decoder * J_code).cast<double>();
-  J->bottomRows(code) = code_weight_ * J_code.cast<double>();
+      (Eigen::MatrixXf::Identity(kShapeDofCount, kShapeDofCount) - J_decoder * J_encoder).cast<double>();
+  J->bottomRows(code) = code_weight_ * J_encoder.cast<double>();
   *J = (*J * scale_.deviation.cwiseInverse().asDiagonal()).eval();
 }
 
