@@ -41,7 +41,7 @@ class Tables {
         skeleton_(ikSkeleton(o)),
         learned_(ikLearnedPoses(o)),
         progress_("measurements",
-                  kIkPriorCount * (kJoints.size() + kNoise_m.size()) + 3 * kJoints.size() + 3 * kYaws_deg.size()) {
+                  kIkPriorCount * (kJoints.size() + kNoise_m.size()) + 4 * kJoints.size() + 3 * kYaws_deg.size()) {
     if (database_.size() == 0) throw Error("holds no pose", o.database.string());
   }
 
@@ -51,9 +51,9 @@ class Tables {
     fmt::print("Error of all joints [mm] and of bones' rotations [degrees], by prior and number of joints given:\n\n");
     header("prior");
     for (int prior = 0; prior < kIkPriorCount; ++prior) row(priorName(prior), configOf(static_cast<IkPrior>(prior)));
-    fmt::print("\nThe same of the classic solvers, without a prior:\n\n");
+    fmt::print("\nThe same of the classic solvers, without a prior, and of latent IK:\n\n");
     header("solver");
-    for (const IkMethod method : {IkMethod::Jacobian, IkMethod::Ccd, IkMethod::Fabrik}) {
+    for (const IkMethod method : {IkMethod::Jacobian, IkMethod::Ccd, IkMethod::Fabrik, IkMethod::Latent}) {
       IkConfig config;
       config.method = method;
       row(kIkMethodNames[static_cast<std::size_t>(method)], config);

@@ -112,7 +112,7 @@ void solve(const SolveOptions& o) {
   OutputCheck check;
   for (const fs::path& input : {o.targets, o.actor, o.priors, o.camera}) check.reads(input);
   check.writes("--out", o.out);
-  const IkSolver solver(ikSkeleton(o), config, config.prior == IkPrior::None ? nullptr : ikLearnedPoses(o));
+  const IkSolver solver(ikSkeleton(o), config, config.needsLearned() ? ikLearnedPoses(o) : nullptr);
   const std::vector<SolvedPose> poses = o.projection.empty() ? solvePlaces(o, solver) : solvePictures(o, solver);
   writeSolvedPoses(poses, solver.skeleton(), o.out);
   double worst_m = 0;
@@ -144,7 +144,9 @@ void addIkCommand(CLI::App& app) {
                    fmt::format("What says how natural a pose is; default: {} with lm, none with the others",
                                kIkPriorNames[static_cast<std::size_t>(defaultPrior(IkMethod::Lm))]))
       ->check(CLI::IsMember(std::vector<std::string>(kIkPriorNames.begin(), kIkPriorNames.end())));
-  command->add_option("--solver", o->solver, "lm; jacobian, ccd and fabrik know no prior")
+  command
+      ->add_option("--solver", o->solver,
+                   "lm; latent: poses of the variational autoencoder alone; jacobian, ccd and fabrik know no prior")
       ->check(CLI::IsMember(std::vector<std::string>(kIkMethodNames.begin(), kIkMethodNames.end())))
       ->capture_default_str();
   command

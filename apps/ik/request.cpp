@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "apps/ik/bones.h"
+#include "apps/ik/json_numbers.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/json_file.h"
 #include "libtracker/skeleton/forward_kinematics.h"
@@ -21,15 +23,16 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kWhere = "request";
-constexpr std::array<std::string_view, 6> kKeys = {"targets", "prior", "solver", "weights", "start", "hold"};
 // Of a joint against the others; more would leave the others nothing to say.
 constexpr double kLargestWeight = 1000.0;
+constexpr double kLargestPriorWeight_m = 1.0;  // as --weight of `ik`
 
 json parsed(const std::string& body) {
   json request = parseJson(body, kWhere);
   for (const auto& [key, value] : request.items()) {
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      throw Error(fmt::format("there is no key '{}'", key), kWhere, fmt::format("keys are {}", fmt::join(kKeys, ", ")));
+    if (std::ranges::find(IkRequests::kKeys, key) == IkRequests::kKeys.end()) {
+      throw Error(fmt::format("there is no key '{}'", key), kWhere,
+                  fmt::format("keys are {}", fmt::join(IkRequests::kKeys, ", ")));
     }
   }
   return request;
@@ -108,13 +111,43 @@ std::string textOf(const json& request, const char* key) {
   return request[key].get<std::string>();
 }
 
-// Micrometres and microradians are enough.
-double rounded(double value) {
-  return std::round(value * 1e6) / 1e6;
+std::optional<double> priorWeightOf(const json& request) {
+  if (!request.contains("prior_weight_m")) return std::nullopt;
+  const json& weight = request["prior_weight_m"];
+  if (!weight.is_number() || !(weight.get<double>() >= 0) || weight.get<double>() > kLargestPriorWeight_m) {
+    throw Error(fmt::format("prior_weight_m must be a number from 0 to {}", kLargestPriorWeight_m), kWhere);
+  }
+  return weight.get<double>();
 }
 
-json listOf(const Eigen::Vector3d& p) {
-  return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
+std::optional<BoneConvention> boneConventionOf(const json& request) {
+  if (!request.contains("bones")) return std::nullopt;
+  const auto* const found = std::ranges::find(kBoneConventionNames, textOf(request, "bones"));
+  if (found == kBoneConventionNames.end()) {
+    throw Error(fmt::format("bones must be one of {}", fmt::join(kBoneConventionNames, ", ")), kWhere);
+  }
+  return static_cast<BoneConvention>(found - kBoneConventionNames.begin());
+}
+
+json answerOf(const Skeleton& skeleton, const IkResult& result) {
+  const JointPositions positions = jointPositions(skeleton, result.q);
+  json joints;
+  for (int i = 0; i < kJointCount; ++i) {
+    joints[std::string(kJointNames[static_cast<std::size_t>(i)])] = listOf(positions.col(i));
+  }
+  json pose = json::array();
+  for (const double value : result.q) pose.push_back(rounded(value));
+  json rotations;
+  for (int i = 0; i < kBoneCount; ++i) {
+    const Eigen::Quaterniond r(localRotation(static_cast<Bone>(i), result.q));
+    rotations[std::string(kBoneNames[static_cast<std::size_t>(i)])] = {rounded(r.w()), rounded(r.x()), rounded(r.y()),
+                                                                       rounded(r.z())};
+  }
+  return {{"joints", joints},
+          {"rotations", rotations},
+          {"root", listOf(result.q.head<3>())},
+          {"pose", pose},
+          {"residual_m", rounded(result.residual_m)}};
 }
 
 }  // namespace
@@ -126,10 +159,10 @@ IkRequests::IkRequests(const IkCommandOptions& options) : skeleton_(ikSkeleton(o
     config.prior = static_cast<IkPrior>(prior);
     lm_.emplace_back(skeleton_, config, learned);
   }
-  for (const IkMethod method : {IkMethod::Jacobian, IkMethod::Ccd, IkMethod::Fabrik}) {
+  for (const IkMethod method : {IkMethod::Jacobian, IkMethod::Ccd, IkMethod::Fabrik, IkMethod::Latent}) {
     IkConfig config;
     config.method = method;
-    classic_.emplace_back(skeleton_, config, nullptr);
+    others_.emplace_back(skeleton_, config, learned);
   }
 }
 
@@ -144,34 +177,20 @@ std::string IkRequests::answer(const std::string& body) const {
   const IkMethod method = solver_name.empty() ? IkMethod::Lm : ikMethodNamed(solver_name);
   const IkPrior prior = prior_name.empty() ? defaultPrior(method) : ikPriorNamed(prior_name);
   if (method != IkMethod::Lm && prior != IkPrior::None) throw Error("a prior needs the solver lm", kWhere);
-  if (method != IkMethod::Lm && (pose_before || request.contains("weights"))) {
-    throw Error("start and weights need the solver lm", kWhere);
+  const IkRun run{pose_before, priorWeightOf(request)};
+  if (method != IkMethod::Lm && (run.start || run.weight_m || request.contains("weights"))) {
+    throw Error("start, weights and prior_weight_m need the solver lm", kWhere);
   }
+  const std::optional<BoneConvention> bones = boneConventionOf(request);
   const IkSolver& solver =
-      method == IkMethod::Lm ? lm_[static_cast<std::size_t>(prior)] : classic_[static_cast<std::size_t>(method) - 1];
+      method == IkMethod::Lm ? lm_[static_cast<std::size_t>(prior)] : others_[static_cast<std::size_t>(method) - 1];
   const auto start = std::chrono::steady_clock::now();
-  const IkResult result = pose_before ? solver.solve(targets, *pose_before) : solver.solve(targets);
+  const IkResult result = method == IkMethod::Lm ? solver.solve(targets, run) : solver.solve(targets);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  const JointPositions positions = jointPositions(skeleton_, result.q);
-  json joints;
-  for (int i = 0; i < kJointCount; ++i) {
-    joints[std::string(kJointNames[static_cast<std::size_t>(i)])] = listOf(positions.col(i));
-  }
-  json pose = json::array();
-  for (const double value : result.q) pose.push_back(rounded(value));
-  json rotations;
-  for (int i = 0; i < kBoneCount; ++i) {
-    const Eigen::Quaterniond r(localRotation(static_cast<Bone>(i), result.q));
-    rotations[std::string(kBoneNames[static_cast<std::size_t>(i)])] = {rounded(r.w()), rounded(r.x()), rounded(r.y()),
-                                                                       rounded(r.z())};
-  }
-  return json{{"joints", joints},
-              {"rotations", rotations},
-              {"root", listOf(result.q.head<3>())},
-              {"pose", pose},
-              {"residual_m", rounded(result.residual_m)},
-              {"ms", time.count()}}
-      .dump();
+  json answer = answerOf(skeleton_, result);
+  answer["ms"] = time.count();
+  if (bones) answer["bones"] = bonesOf(*bones, skeleton_, result.q);
+  return answer.dump();
 }
 
 }  // namespace depthmocap

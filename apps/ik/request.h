@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/ik/setup.h"
@@ -11,13 +13,17 @@ class IkRequests {
  public:
   explicit IkRequests(const IkCommandOptions& options);  // loads what every prior needs
 
-  // Error says what is wrong with the request. Any thread.
+  // Error says what is wrong with the request. Any thread, several at once.
   [[nodiscard]] std::string answer(const std::string& body) const;
+
+  // The keys that a request may have.
+  static constexpr std::array<std::string_view, 8> kKeys = {"targets", "prior", "prior_weight_m", "solver",
+                                                            "weights", "start", "hold",           "bones"};
 
  private:
   Skeleton skeleton_;
-  std::vector<IkSolver> lm_;       // by prior
-  std::vector<IkSolver> classic_;  // by method, from Jacobian on
+  std::vector<IkSolver> lm_;      // by prior
+  std::vector<IkSolver> others_;  // by method, from Jacobian on
 };
 
 }  // namespace depthmocap

@@ -2,10 +2,12 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "apps/commands.h"
-#include "apps/ik/request.h"
+#include "apps/ik/routes.h"
 #include "apps/terminal/stop_request.h"
 #include "apps/view/live_page.h"
 #include "apps/view/view_options.h"
@@ -16,15 +18,18 @@ namespace {
 struct ServeOptions {
   ViewOptions view;
   IkCommandOptions ik;
+  std::vector<std::string> allowed_origins;
+  int threads = 2;
 };
 
 void serve(const ServeOptions& options) {
   const StopRequest on_ctrl_c;
   const IkRequests ik(options.ik);
-  LivePage page(webServerConfig(options.view), pageFolder(), {"idle", "no source", {}});
-  page.server().onPostAside("/ik", [&](const std::string& body) {
-    return WebContent{"application/json", ik.answer(body)};
-  });
+  WebServerConfig config = webServerConfig(options.view);
+  config.workers = options.threads;
+  config.allowed_origins = options.allowed_origins;
+  LivePage page(config, pageFolder(), {"idle", "no source", {}});
+  addIkRoutes(page.server(), ik);
   page.start();
   std::cerr << "serving " << page.server().url() << std::endl;
   while (!StopRequest::made()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -44,10 +49,18 @@ void addServeCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--token", options->view.token,
                       "Token that requests must show (default: a random one where needed)");
+  command
+      ->add_option("--allow-origin", options->allowed_origins,
+                   "Page of another origin that may use the server, as http://localhost:3000; may be repeated")
+      ->type_name("ORIGIN");
+  command->add_option("--threads", options->threads, "Poses that are solved at once")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   addIkOptions(*command, options->ik);
   command->footer(
-      "GET /health answers 200; POST /ik solves for a pose (docs/reference/stream.md). Example:\n  depthmocap serve "
-      "--port 8010");
+      "GET /health answers 200; POST /ik solves for a pose; GET /openapi.json describes all of it. Example:\n  "
+      "depthmocap "
+      "serve --port 8010 --allow-origin http://localhost:3000");
   command->callback([options] { serve(*options); });
 }
 

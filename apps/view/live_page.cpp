@@ -48,7 +48,9 @@ LivePage::LivePage(const WebServerConfig& config, const std::filesystem::path& f
     const bool open = std::string_view(file.path) != "/";
     server_.serveFile(file.path, {file.type, readFile(folder / file.name, "a file of the page", kMostPageBytes)}, open);
   }
-  server_.onGet("/health", [](const std::string&) { return WebContent{"application/json", R"({"status":"ok"})"}; });
+  server_.onGet("/health", [](const std::string&) {
+    return WebContent{"application/json", dumped({{"status", "ok"}, {"version", DEPTHMOCAP_VERSION}})};
+  });
   server_.onGet("/body.glb", [this](const std::string&) {
     const BoneLengths lengths = averageBoneLengths(kBodyStature_m);
     if (body_glb_.empty()) body_glb_ = gltfBytes(makeBuiltinBody(lengths), {lengths, {}});

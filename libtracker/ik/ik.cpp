@@ -24,7 +24,7 @@ IkConfig configOf(const IkOptions& options) {
 }
 
 std::shared_ptr<const LearnedPoses> learnedPoses(const IkOptions& options) {
-  if (options.prior == IkPrior::None) return nullptr;
+  if (!configOf(options).needsLearned()) return nullptr;
   return std::make_shared<const LearnedPoses>(
       loadLearnedPoses(options.learned_poses.empty() ? shippedFile("pose_priors.bin") : options.learned_poses));
 }

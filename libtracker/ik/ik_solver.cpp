@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "libtracker/core/check.h"
 #include "libtracker/core/config_fields.h"
 #include "libtracker/ik/classic_solvers.h"
+#include "libtracker/ik/latent_solver.h"
 #include "libtracker/ik/pose_problem.h"
 #include "libtracker/skeleton/joint_limits.h"
 
@@ -47,6 +49,8 @@ void IkConfig::validate() const {
   if (method != IkMethod::Lm && prior != IkPrior::None) throw Error("prior needs the method lm", "IkConfig");
   checkConfig(weight_m >= 0 && weight_m <= kLargestWeight_m, "IkConfig", "weight_m", weight_m, "from 0 to 10");
   checkConfig(starts >= 1, "IkConfig", "starts", starts, "at least 1");
+  checkConfig(race_iterations >= 0, "IkConfig", "race_iterations", race_iterations, "at least 0");
+  checkConfig(race_winners >= 1, "IkConfig", "race_winners", race_winners, "at least 1");
   checkConfig(lm.max_iterations >= 1, "IkConfig", "lm.max_iterations", lm.max_iterations, "at least 1");
 }
 
@@ -54,21 +58,25 @@ struct IkSolver::Impl {
   Impl(const Skeleton& s, const IkConfig& c, std::shared_ptr<const LearnedPoses> l)
       : skeleton(s), config(c), learned(std::move(l)) {
     config.validate();
-    DMC_CHECK(config.prior == IkPrior::None || learned != nullptr);
+    DMC_CHECK(!config.needsLearned() || learned != nullptr);
     if (learned != nullptr) prior = priorOf(config.prior, *learned);
+    if (config.method == IkMethod::Latent) latent.emplace(learned->scale, learned->variational);
   }
 
   [[nodiscard]] std::vector<Pose> starts(const PointTargets& targets) const;
-  [[nodiscard]] IkSolution best(const std::vector<Pose>& starts, PoseTerm& measured) const;
+  // Of what the starts lead to; only so many go on after the race.
+  [[nodiscard]] IkSolution best(const std::vector<Pose>& starts, PoseTerm& measured, double weight_m,
+                                int winners) const;
 
   Skeleton skeleton;
   IkConfig config;
   std::shared_ptr<const LearnedPoses> learned;
   std::unique_ptr<const PosePrior> prior;
+  std::optional<LatentSolver> latent;
 };
 
 std::vector<Pose> IkSolver::Impl::starts(const PointTargets& targets) const {
-  if (config.prior == IkPrior::None) return {placedAtTargets(skeleton, targets, Pose::Zero())};
+  if (!config.needsLearned()) return {placedAtTargets(skeleton, targets, Pose::Zero())};
   TargetTerm term(skeleton, targets);
   std::vector<Candidate> candidates;
   for (const PoseGaussian& typical : learned->mixture) {
@@ -83,19 +91,27 @@ std::vector<Pose> IkSolver::Impl::starts(const PointTargets& targets) const {
   return nearest;
 }
 
-IkSolution IkSolver::Impl::best(const std::vector<Pose>& starts, PoseTerm& measured) const {
+IkSolution IkSolver::Impl::best(const std::vector<Pose>& starts, PoseTerm& measured, double weight_m,
+                                int winners) const {
+  PoseProblem problem(measured, prior.get(), weight_m);
+  std::vector<LevenbergMarquardt> solves;
+  solves.reserve(starts.size());
+  for (const Pose& start : starts) solves.emplace_back(problem, start);
+  const auto energyOf = [](const LevenbergMarquardt& solve) { return solve.summary().energy; };
   IkSolution best;
-  int iterations = 0;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    PoseProblem problem(measured, prior.get(), config.weight_m);
-    Eigen::VectorXd x = starts[i];
-    const LmSummary summary = levenbergMarquardt(problem, config.lm, x);
-    iterations += summary.iterations;
-    if (i > 0 && !(summary.energy < best.energy)) continue;
-    best.result.q = x;
-    best.energy = summary.energy;
+  if (std::ssize(solves) > winners) {
+    for (LevenbergMarquardt& solve : solves) solve.run(std::min(config.race_iterations, config.lm.max_iterations));
+    std::ranges::stable_sort(solves, {}, energyOf);
+    for (; std::ssize(solves) > winners; solves.pop_back())
+      best.result.iterations += solves.back().summary().iterations;
   }
-  best.result.iterations = iterations;
+  for (LevenbergMarquardt& solve : solves) {
+    solve.run(config.lm.max_iterations);
+    best.result.iterations += solve.summary().iterations;
+  }
+  const LevenbergMarquardt& lowest = *std::ranges::min_element(solves, {}, energyOf);
+  best.result.q = lowest.x();
+  best.energy = lowest.summary().energy;
   best.result.q[kRootRy] = std::remainder(best.result.q[kRootRy], 2.0 * std::numbers::pi);
   return best;
 }
@@ -129,19 +145,23 @@ std::vector<PoseShape> IkSolver::typicalShapes() const {
 }
 
 IkSolution IkSolver::solveFrom(const std::vector<Pose>& starts, PoseTerm& measured) const {
-  return impl_->best(starts, measured);
+  return impl_->best(starts, measured, impl_->config.weight_m, static_cast<int>(starts.size()));
 }
 
-IkResult IkSolver::solve(const JointTargets& targets, const Pose& start) const {
-  TargetTerm term(impl_->skeleton, targets);
-  IkResult result = impl_->best({start}, term).result;
+IkResult IkSolver::solve(const JointTargets& targets, const IkRun& run) const {
+  const PointTargets points = pointTargets(impl_->skeleton, targets);
+  TargetTerm term(impl_->skeleton, points);
+  const std::vector<Pose> starts = run.start ? std::vector<Pose>{*run.start} : impl_->starts(points);
+  IkResult result =
+      impl_->best(starts, term, run.weight_m.value_or(impl_->config.weight_m), impl_->config.race_winners).result;
   result.residual_m = term.rms(result.q);
   return result;
 }
 
 IkResult IkSolver::solve(const PointTargets& targets) const {
   TargetTerm term(impl_->skeleton, targets);
-  IkResult result = impl_->best(impl_->starts(targets), term).result;
+  IkResult result =
+      impl_->best(impl_->starts(targets), term, impl_->config.weight_m, impl_->config.race_winners).result;
   result.residual_m = term.rms(result.q);
   return result;
 }
@@ -151,7 +171,10 @@ IkResult IkSolver::solve(const JointTargets& targets) const {
   if (impl_->config.method == IkMethod::Lm) return solve(points);
   const Pose start = placedAtTargets(impl_->skeleton, points, Pose::Zero());
   IkResult result;
-  if (impl_->config.method == IkMethod::Jacobian) {
+  if (impl_->latent) {
+    TargetTerm term(impl_->skeleton, points);
+    result = impl_->latent->solve(impl_->starts(points), impl_->config.lm, term);
+  } else if (impl_->config.method == IkMethod::Jacobian) {
     result = solveDampedLeastSquares(impl_->skeleton, targets, start);
   } else if (impl_->config.method == IkMethod::Ccd) {
     result = solveCyclicDescent(impl_->skeleton, targets, start);

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "depthmocap/ik.h"
 #include "libtracker/ik/learned_poses.h"
@@ -16,8 +17,19 @@ struct IkConfig {
   // coordinate is off by suits others.
   double weight_m = 0.001;
   int starts = 4;  // (>= 1) typical poses, those nearest to the targets, that a solve with a prior starts from
+  // Steps that every start may try before those that lead race on alone, and how many do (>= 1). [steps], [starts]
+  int race_iterations = 2;
+  int race_winners = 2;
   LmConfig lm = {};
+  // Whether a solver needs learned poses.
+  [[nodiscard]] bool needsLearned() const { return prior != IkPrior::None || method == IkMethod::Latent; }
   void validate() const;  // throws Error naming field, value and rule
+};
+
+// What one solve by IkMethod::Lm may have of its own.
+struct IkRun {
+  std::optional<Pose> start = {};       // the only one: finds what lies near it, in less time
+  std::optional<double> weight_m = {};  // [m] (>= 0) in place of IkConfig::weight_m
 };
 
 // A pose and how well it does.
@@ -32,7 +44,7 @@ struct IkSolution {
 // after construction: threads may share one. Deterministic.
 class IkSolver {
  public:
-  // `learned` may be nullptr where config.prior is None. Throws as IkConfig::validate.
+  // `learned` may be nullptr where config.needsLearned() is false. Throws as IkConfig::validate.
   IkSolver(const Skeleton& skeleton, const IkConfig& config, std::shared_ptr<const LearnedPoses> learned);
   ~IkSolver();
   IkSolver(IkSolver&&) noexcept;
@@ -46,8 +58,8 @@ class IkSolver {
   [[nodiscard]] std::vector<PoseShape> typicalShapes() const;
   // At least one target.
   [[nodiscard]] IkResult solve(const JointTargets& targets) const;
-  // The same by IkMethod::Lm from this pose alone: what lies near it, and in less time.
-  [[nodiscard]] IkResult solve(const JointTargets& targets, const Pose& start) const;
+  // The same by IkMethod::Lm.
+  [[nodiscard]] IkResult solve(const JointTargets& targets, const IkRun& run) const;
   // Any points of the body, by IkMethod::Lm.
   [[nodiscard]] IkResult solve(const PointTargets& targets) const;
   // The best of the poses that IkMethod::Lm leads to from each start (at least one), for any measurement whose rows are

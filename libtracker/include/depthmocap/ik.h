@@ -12,10 +12,11 @@
 
 namespace depthmocap {
 
-// Solvers. Lm is Levenberg-Marquardt as in MNN-IK (Hu, Zhang, Xia 2021), the only one that takes a prior; the others
-// are the classic baselines.
-enum class IkMethod { Lm, Jacobian, Ccd, Fabrik };
-inline constexpr std::array<std::string_view, 4> kIkMethodNames = {"lm", "jacobian", "ccd", "fabrik"};
+// Solvers. Lm is Levenberg-Marquardt as in MNN-IK (Hu, Zhang, Xia 2021), the only one that takes a prior; Latent is
+// latent IK (after VPoser, Pavlakos et al. 2019), whose poses are those that the variational autoencoder can make; the
+// others are the classic baselines.
+enum class IkMethod { Lm, Jacobian, Ccd, Fabrik, Latent };
+inline constexpr std::array<std::string_view, 5> kIkMethodNames = {"lm", "jacobian", "ccd", "fabrik", "latent"};
 
 // What says how natural a pose is, learned from captured poses: a Gaussian, a mixture of Gaussians, two networks.
 enum class IkPrior { None, Ppca, Gmm, Autoencoder, Vae };
@@ -26,7 +27,7 @@ inline constexpr std::array<std::string_view, kIkPriorCount> kIkPriorNames = {"n
 struct IkOptions {
   IkMethod method = IkMethod::Lm;
   IkPrior prior = IkPrior::Gmm;           // with IkMethod::Lm only; IkPrior::None for the others
-  std::filesystem::path learned_poses{};  // of the prior; empty: those that come with the library
+  std::filesystem::path learned_poses{};  // of the prior and of Latent; empty: those that come with the library
   // [m] (>= 0) how far a joint may stay from its target for one unit of the prior: 1 mm suits exact targets, half of
   // what each coordinate is off by suits others.
   double weight_m = 0.001;

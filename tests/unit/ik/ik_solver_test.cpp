@@ -126,6 +126,27 @@ TEST_P(EveryPrior, KeepsLimitsAndStaysFinite) {
   EXPECT_TRUE(solver.solve(far).q.allFinite());
 }
 
+TEST(LatentSolver, FindsWhatTheDecoderCanMake) {
+  const Skeleton skeleton = makeSkeleton(BoneLengths{});
+  const auto learned = std::make_shared<LearnedPoses>(someLearnedPoses());
+  IkConfig config;
+  config.method = IkMethod::Latent;
+  const IkSolver solver(skeleton, config, learned);
+  // A pose of a small code, near which the weight of the code has little to say.
+  const Eigen::VectorXf code = Eigen::VectorXf::LinSpaced(5, -0.3F, 0.3F);
+  Pose truth = withShape(Pose::Zero(), learned->scale.unscaled(learned->variational.decoder.evaluate(code)));
+  truth = clampedToLimits(truth);
+  truth[kRootTx] = 0.4;
+  truth[kRootRy] = 1.1;
+  const JointPositions joints = jointPositions(skeleton, truth);
+  JointTargets targets;
+  for (int i = 0; i < kJointCount; ++i) ASSERT_EQ(targets.add(static_cast<Joint>(i), joints.col(i)), "");
+  const IkResult result = solver.solve(targets);
+  EXPECT_LT(result.residual_m, 0.05);
+  EXPECT_EQ(result.q, clampedToLimits(result.q));
+  EXPECT_EQ(result.q, solver.solve(targets).q);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Priors, EveryPrior, testing::Values(IkPrior::None, IkPrior::Ppca, IkPrior::Gmm, IkPrior::Autoencoder, IkPrior::Vae),
     [](const auto& test) { return std::string(kIkPriorNames[static_cast<std::size_t>(test.param)]); });

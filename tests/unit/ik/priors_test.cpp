@@ -1,7 +1,9 @@
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "libtracker/ik/latent_problem.h"
 #include "libtracker/ik/pose_problem.h"
 #include "libtracker/ik/target_term.h"
 #include "libtracker/skeleton/joint_limits.h"
@@ -63,6 +65,13 @@ TEST_F(Priors, GradientOfTheVariationalAutoencoder) {
   expectGradient(problem, q_, kTolerance, kStep);
 }
 
+TEST_F(Priors, LatentProblemJacobian) {
+  const FastPoseCoder coder(learned_.variational);
+  TargetTerm term(skeleton_, targets_);
+  LatentProblem problem(learned_.scale, coder, term);
+  expectGradient(problem, problem.encoded(q_), kTolerance, kStep);
+}
+
 TEST_F(Priors, PpcaIsTheMahalanobisDistance) {
   const PoseGaussian& g = learned_.ppca;
   Eigen::MatrixXd covariance = g.residual_rad * g.residual_rad * Eigen::MatrixXd::Identity(32, 32);
@@ -114,6 +123,44 @@ TEST(DenseNetwork, JacobianFollowsEitherChain) {
       return J.cast<double>();
     };
     expectJacobianMatches(Eigen::VectorXd::LinSpaced(network.inputs(), -1, 1), residual, jacobian, kTolerance, kStep);
+  }
+}
+
+TEST(FastNetwork, DoesWhatThePlainNetworkDoes) {
+  Random random(6);
+  for (const auto& widths : {std::vector{4, 9, 7}, std::vector{33, 128, 17, 20}, std::vector{24, 31, 64, 32}}) {
+    const DenseNetwork plain = someNetwork(widths, random);
+    const FastNetwork fast(plain);
+    Eigen::MatrixXf J_plain;
+    Eigen::MatrixXf J_fast;
+    const Eigen::VectorXf x = Eigen::VectorXf::LinSpaced(plain.inputs(), -1, 1);
+    EXPECT_LT((plain.evaluate(x, &J_plain) - fast.evaluate(x, &J_fast)).norm(), 1e-4);
+    ASSERT_EQ(J_fast.rows(), J_plain.rows());
+    EXPECT_LT((J_plain - J_fast).norm(), 1e-3);
+    EXPECT_EQ(fast.evaluate(x), fast.evaluate(x, &J_fast));
+    for (const int used : {1, 3}) {
+      (void)fast.evaluate(x, &J_fast, used);
+      EXPECT_LT((J_plain.topRows(used) - J_fast).norm(), 1e-3) << used;
+    }
+  }
+}
+
+// The same sums whichever way the processor takes.
+TEST(PackedMatrix, SumsInTheOrderOfTheColumns) {
+  Random random(7);
+  for (const auto& [rows, inner, columns] : {std::array{1, 1, 1}, std::array{16, 5, 6}, std::array{35, 40, 23}}) {
+    Eigen::MatrixXf A(rows, inner);
+    Eigen::MatrixXf B(inner, columns);
+    for (float& a : A.reshaped()) a = static_cast<float>(random.normal());
+    for (float& b : B.reshaped()) b = static_cast<float>(random.normal());
+    const Eigen::MatrixXf C = PackedMatrix(A).times(B);
+    for (int i = 0; i < rows; ++i) {
+      for (int j = 0; j < columns; ++j) {
+        float sum = 0;
+        for (int k = 0; k < inner; ++k) sum += A(i, k) * B(k, j);
+        EXPECT_EQ(C(i, j), sum) << i << ' ' << j;
+      }
+    }
   }
 }
 
