@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/ik/json_numbers.h"
-#include "libtracker/motion/bvh_writer.h"
+#include "libtracker/motion/rig.h"
 #include "libtracker/output/rig_nodes.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
@@ -55,7 +55,8 @@ Matrix3d restAxes(const Vector3d& along) {
 }
 
 json blenderBones(const Skeleton& skeleton, const Pose& q) {
-  const std::vector<MotionBone> bones = bvhBones(skeleton);
+  const Rig rig(RigStyle::MotionBuilder, skeleton);
+  const std::vector<MotionBone>& bones = rig.bones();
   const Matrix3d turn = blenderFromOurs();
   std::vector<Vector3d> head(bones.size());
   for (std::size_t b = 0; b < bones.size(); ++b) {

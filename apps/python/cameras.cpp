@@ -10,6 +10,7 @@
 #include "apps/python/bindings.h"
 #include "depthmocap/camera.h"
 #include "depthmocap/recording.h"
+#include "libtracker/core/check_camera.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/recording_header.h"
 
@@ -55,7 +56,7 @@ class Writer {
  public:
   Writer(const std::filesystem::path& path, const CameraModel& camera, double fps, double depth_unit_m,
          const std::string& name)
-      : writer_(std::make_unique<RecordingWriter>(path, RecordingInfo{camera, fps, depth_unit_m, name, "", "{}"})) {}
+      : writer_(std::make_unique<RecordingWriter>(path, RecordingInfo{camera, fps, depth_unit_m, name, "", "{}", {}})) {}
   void write(const DepthArray& depth, double time_s) {
     if (!writer_) throw Error("is finished", "RecordingWriter");
     const DepthFrame frame{next_, time_s, depthImageOf(depth)};

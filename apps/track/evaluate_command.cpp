@@ -57,7 +57,8 @@ fs::path truthFile(const fs::path& truth, const char* name) {
 fs::path truthPoseFile(const EvaluateOptions& options) {
   if (!options.truth_pose.empty()) return options.truth_pose;
   if (fs::exists(options.truth) && !fs::is_directory(options.truth)) {
-    throw CLI::ValidationError(options.pose.empty() ? "--angles" : "--pose", "needs --truth-pose when --truth names a file");
+    throw CLI::ValidationError(options.pose.empty() ? "--angles" : "--pose",
+                               "needs --truth-pose when --truth names a file");
   }
   return truthFile(options.truth, "pose.csv");
 }
@@ -112,9 +113,8 @@ void evaluate(const EvaluateOptions& options) {
                      readJointsFile(truthFile(options.truth, "joints.csv")), options.evaluation);
   Json json = report(joints, poses, options.evaluation);
   if (!options.angles.empty()) {
-    json["clinical_angles"] =
-        clinicalFigures(evaluateAngles(readAnglesFile(options.angles, options.person),
-                                       readPoseFile(truthPoseFile(options)), options.evaluation));
+    json["clinical_angles"] = clinicalFigures(evaluateAngles(readAnglesFile(options.angles, options.person),
+                                                             readPoseFile(truthPoseFile(options)), options.evaluation));
   }
   std::cout << json.dump(2) << '\n';
 }
@@ -128,7 +128,8 @@ void addEvaluateCommand(CLI::App& app) {
   command->add_option("--truth", options->truth, "Recording with truth/joints.csv, or a joints file")->required();
   command->add_option("--pose", options->pose, "Pose file of the tracker: adds joint angles");
   command->add_option("--truth-pose", options->truth_pose, "True pose file; otherwise the recording's truth/pose.csv");
-  command->add_option("--angles", options->angles, "Angles file of the tracker: adds clinical angles")->type_name("A.csv");
+  command->add_option("--angles", options->angles, "Angles file of the tracker: adds clinical angles")
+      ->type_name("A.csv");
   command->add_option("--person", options->person, "Of several people tracked, which one to compare")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

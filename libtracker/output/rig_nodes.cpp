@@ -3,13 +3,14 @@
 #include <Eigen/Geometry>
 
 #include "libtracker/body/pose_surface.h"
-#include "libtracker/motion/bvh_writer.h"
+#include "libtracker/motion/rig.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 
 std::vector<RigNode> rigNodes(const Skeleton& skeleton) {
-  const std::vector<MotionBone> bones = bvhBones(skeleton);
+  const Rig rig(RigStyle::MotionBuilder, skeleton);
+  const std::vector<MotionBone>& bones = rig.bones();
   std::vector<RigNode> nodes;
   const auto add = [&](const std::string& name, int parent, const Eigen::Vector3d& offset) {
     nodes.push_back({name, parent, offset});

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "libtracker/core/random.h"
-#include "libtracker/skeleton/block_band.h"
 #include "libtracker/ik/target_term.h"
+#include "libtracker/skeleton/block_band.h"
 #include "libtracker/skeleton/joint_limits.h"
 
 namespace depthmocap {
