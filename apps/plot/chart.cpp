@@ -243,7 +243,8 @@ void draw(const AnglePlot& plot, cairo_surface_t* surface) {
   legend(plot, canvas);
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
     const double x = kMargin + static_cast<double>(i % kColumns) * kPanelWidth;
-    const double y = kHeader + static_cast<double>(i / kColumns) * kPanelHeight;
+    const std::size_t row = i / kColumns;
+    const double y = kHeader + static_cast<double>(row) * kPanelHeight;
     PanelView(plot, plot.panels[i], x, y).draw(canvas);
   }
 }

@@ -56,7 +56,8 @@ class Writer {
  public:
   Writer(const std::filesystem::path& path, const CameraModel& camera, double fps, double depth_unit_m,
          const std::string& name)
-      : writer_(std::make_unique<RecordingWriter>(path, RecordingInfo{camera, fps, depth_unit_m, name, "", "{}", {}})) {}
+      : writer_(std::make_unique<RecordingWriter>(path, RecordingInfo{camera, fps, depth_unit_m, name, "", "{}", {}})) {
+  }
   void write(const DepthArray& depth, double time_s) {
     if (!writer_) throw Error("is finished", "RecordingWriter");
     const DepthFrame frame{next_, time_s, depthImageOf(depth)};

@@ -46,6 +46,7 @@ bool isOrigin(std::string_view text) {
   constexpr std::size_t kLongest = 256;
   constexpr std::string_view kSigns = "-._:[]";
   const std::size_t colon = text.find("://");
+  if (colon == std::string_view::npos) return false;
   if (text.size() > kLongest || (text.substr(0, colon) != "http" && text.substr(0, colon) != "https")) return false;
   const std::string_view host = text.substr(colon + 3);
   return !host.empty() && std::ranges::all_of(host, [&](char c) {

@@ -57,9 +57,10 @@ std::vector<Rows> runsOf(const std::vector<AnglesRow>& rows) {
   return runs;
 }
 
-// Maxima between falls of at least kLeastSwing_m on both sides.
-void steps(Rows rows, MovementKind kind, double BodySignals::*ahead, double BodySignals::*sole, double floor_y,
-           std::vector<MovementEvent>& events) {
+// Maxima between falls of at least kLeastSwing_m on both sides, where the foot is before the other one, too: in a squat
+// both go to and fro against the pelvis.
+void steps(Rows rows, MovementKind kind, double BodySignals::*ahead, double BodySignals::*other_ahead,
+           double BodySignals::*sole, double floor_y, std::vector<MovementEvent>& events) {
   double low = rows.front().signals.*ahead;
   const AnglesRow* peak = nullptr;
   for (const AnglesRow& row : rows) {
@@ -71,7 +72,8 @@ void steps(Rows rows, MovementKind kind, double BodySignals::*ahead, double Body
     }
     if (now > peak->signals.*ahead) peak = &row;
     if (now > peak->signals.*ahead - kLeastSwing_m) continue;
-    if (peak->signals.*ahead > 0 && peak->signals.*sole < floor_y + kFootDown_m) {
+    const bool is_before = peak->signals.*ahead > std::max(0.0, peak->signals.*other_ahead + kLeastSwing_m);
+    if (is_before && peak->signals.*sole < floor_y + kFootDown_m) {
       events.push_back({kind, peak->time_s, peak->time_s});
     }
     low = now;
@@ -124,9 +126,10 @@ std::vector<MovementEvent> findMovements(const std::vector<AnglesRow>& rows) {
   const double floor_y = floorHeight(rows);
   std::vector<MovementEvent> events;
   for (const Rows run : runsOf(rows)) {
-    steps(run, MovementKind::LeftStep, &BodySignals::left_foot_ahead_m, &BodySignals::left_sole_y_m, floor_y, events);
-    steps(run, MovementKind::RightStep, &BodySignals::right_foot_ahead_m, &BodySignals::right_sole_y_m, floor_y,
-          events);
+    const auto left = &BodySignals::left_foot_ahead_m;
+    const auto right = &BodySignals::right_foot_ahead_m;
+    steps(run, MovementKind::LeftStep, left, right, &BodySignals::left_sole_y_m, floor_y, events);
+    steps(run, MovementKind::RightStep, right, left, &BodySignals::right_sole_y_m, floor_y, events);
     jumps(run, floor_y, events);
     risings(run, events);
   }

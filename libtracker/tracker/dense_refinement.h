@@ -27,6 +27,9 @@ class DenseRefinement {
   void refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input, MapSolver& solver, Pose& q,
               MapSummary& summary);
 
+  // What was learned of the camera's noise is of another run.
+  void forget() { noise_ = {}; }
+
   // The matches of the last refine(); null: it made none.
   [[nodiscard]] const SurfaceMatches* matches() const { return rounds_ > 0 ? &matches_ : nullptr; }
 

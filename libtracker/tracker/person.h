@@ -23,6 +23,12 @@ class Person {
   // (1) to (5): the pose in this frame.
   void track(const DepthFrame& frame, const PersonRegion& region, const UprightWorld& world, StageClock& clock);
 
+  // The next frame is the first one of another run.
+  void forget() {
+    memory.forget(std::nullopt);
+    fitter_.forget();
+  }
+
   TrackMemory memory;
   Observer observer;
   TrackedFrame out;

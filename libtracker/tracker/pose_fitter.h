@@ -27,6 +27,8 @@ class PoseFitter {
   // The image that the next evidence is of; depth and region must outlive the calls for this frame.
   void look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
             const Eigen::Matrix3d& R_world_camera);
+  // The next frame is the first one of another run.
+  void forget() { dense_.forget(); }
   // What is known of legs that are not in view; before buildPrior() and the fits of this frame.
   void supposeLegs(const PersonRegion& actor, const UprightWorld& world) { legs_.look(actor.cut_below, world.floor()); }
 

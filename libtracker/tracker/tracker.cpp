@@ -48,7 +48,7 @@ const Actor& Tracker::actor(int person) const {
 }
 
 void Tracker::reset() {
-  for (const auto& person : impl_->people) person->memory.forget(std::nullopt);
+  for (const auto& person : impl_->people) person->forget();
   impl_->returning.forget();
 }
 

@@ -6,7 +6,7 @@ MapConfig measuredWeights() {
   weights.lambda_prior = 100.0;
   weights.lambda_smooth = 20.0;
   weights.velocity_share = 0.8;
-  weights.lambda_surface = 4.0;
+  weights.lambda_surface = 2.0;
   weights.prior_freedom = 8.0;
   return weights;
 }

@@ -42,7 +42,7 @@ TEST(Border, OfCameraOptions) {
   }
   for (const double unit_m : {kNaN, 0.0, -0.001, kInfinity}) {
     CameraOptions options;
-    options.depth_unit_m = unit_m;
+    options.correction.depth_unit_m = unit_m;
     refuses([&] { Camera(walk(), options); }, "depth_unit_m");
   }
   for (const DepthMode& mode : {DepthMode{0, 480, 30}, {640, -1, 30}, {640, 480, kNaN}, {640, 480, -1}}) {
