@@ -31,7 +31,8 @@ int pairsOf(const ConvolutionLayer& layer) {
 // What 1 stands for in the whole numbers of one output's weights: the largest of them has 16 bits at most, and no sum
 // of products with inputs of PairedMaps::kMost has more than 32.
 float unitOf(const float* weights, std::size_t count) {
-  constexpr double kMostSum = std::numeric_limits<std::int32_t>::max() / PairedMaps::kMost;
+  constexpr std::int32_t kMostWhole = std::numeric_limits<std::int32_t>::max() / PairedMaps::kMost;
+  constexpr double kMostSum = kMostWhole;
   double most = 0;
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -109,8 +110,8 @@ void convolve(const ConvolutionLayer& layer, const FeatureMaps& input, const Con
         job.weights = layer.by_block.data() + static_cast<std::size_t>(block) * block_size;
         for (int k = 0; k < job.outputs; ++k) {
           const auto here = static_cast<std::size_t>(k);
-          job.units[here] = working.unit() * layer.units[static_cast<std::size_t>(o + k)];
-          job.biases[here] = layer.biases[static_cast<std::size_t>(o + k)];
+          job.units[here] = working.unit() * layer.units[static_cast<std::size_t>(o) + here];
+          job.biases[here] = layer.biases[static_cast<std::size_t>(o) + here];
           job.to[here] = output.row(o + k, y);
         }
         convolve_row(job);

@@ -217,7 +217,7 @@ class Document {
     if (track.sizeChanges()) {
       std::vector<float> scale;
       for (const auto& frame : track.frames) append(scale, Eigen::Vector3d::Constant(frame.scale));
-      add(rig.skin.movingNodes() - 1U, "scale", scale, "VEC3");
+      add(static_cast<std::size_t>(rig.skin.movingNodes() - 1), "scale", scale, "VEC3");
     }
     for (int bone = 0; bone < kSkinBoneCount; ++bone) {
       add(static_cast<std::size_t>(rig.skin.nodeOf(bone)), "rotation", rotations(rig, bone), "VEC4");

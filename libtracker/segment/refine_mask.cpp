@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <ranges>
 
 #include "libtracker/segment/depth_noise.h"
 #include "libtracker/segment/find_floor.h"
@@ -56,7 +55,8 @@ class RowRefiner {
   // Columns [first, end) of the picture.
   RowRefiner(const DepthImage& depth, const CameraModel& camera, const RefineLimits& limits, int first, int end)
       : depth_(depth), limits_(limits), first_(first), count_(end - first) {
-    const auto room = static_cast<std::size_t>((count_ + kLanes - 1) / kLanes * kLanes);
+    const int blocks = (count_ + kLanes - 1) / kLanes;
+    const std::size_t room = static_cast<std::size_t>(blocks) * static_cast<std::size_t>(kLanes);
     row_.assign(room, 0.0F);
     for (auto& z : corner_z_) z.assign(room, kNoDepth_m);
     for (auto& actor : corner_is_actor_) actor.assign(room, 0);
@@ -180,7 +180,8 @@ void growIntoOpen(const DepthImage& depth, const PixelBox& box, const std::vecto
     const auto y = static_cast<int>(i / width);
     if ((x > box.x0 && joins(i, i - 1)) || (y > box.y0 && joins(i, i - width))) mask.data[i] = 1;
   }
-  for (const std::size_t i : std::views::reverse(open)) {
+  for (auto at = open.rbegin(); at != open.rend(); ++at) {
+    const std::size_t i = *at;
     if (mask.data[i] != kOpen) continue;
     const auto x = static_cast<int>(i % width);
     const auto y = static_cast<int>(i / width);
