@@ -29,7 +29,7 @@ Eigen::Vector3d moveToFloor(std::vector<MotionTrack>& tracks) {
   const auto median = soles_y.begin() + static_cast<std::ptrdiff_t>(soles_y.size() / 2);
   std::nth_element(soles_y.begin(), median, soles_y.end());
   const Pose& first = tracks.front().frames.front().q;
-  const Eigen::Vector3d origin(first[kRootTx], *median, first[kRootTz]);
+  Eigen::Vector3d origin(first[kRootTx], *median, first[kRootTz]);
   for (MotionTrack& track : tracks) {
     for (MotionTrack::Frame& frame : track.frames) frame.q.head<3>() -= origin;
   }
