@@ -22,14 +22,18 @@ Matrix3d blenderFromOurs() {
 }
 
 json gltfBones(const Skeleton& skeleton, const Pose& q) {
-  const std::vector<RigNode> nodes = rigNodes(skeleton);
+  const RigNodes rig(RigStyle::MotionBuilder, skeleton);
+  const std::vector<RigNodes::Node>& nodes = rig.nodes();
   json bones;
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const RigNode& node = nodes[n];
-    const Quaterniond r(rigNodeRotation(static_cast<int>(n), q));
+  for (const RigNodes::Node& node : nodes) {
     bones[node.name] = {{"translation", listOf(node.parent < 0 ? Vector3d(q.head<3>()) : node.offset)},
-                        {"rotation", {rounded(r.x()), rounded(r.y()), rounded(r.z()), rounded(r.w())}}};
+                        {"rotation", {0.0, 0.0, 0.0, 1.0}}};
     if (node.parent >= 0) bones[node.name]["parent"] = nodes[static_cast<std::size_t>(node.parent)].name;
+  }
+  for (int b = 0; b < kSkinBoneCount; ++b) {
+    const Quaterniond r = rig.rotation(b, q);
+    bones[nodes[static_cast<std::size_t>(rig.nodeOf(b))].name]["rotation"] = {rounded(r.x()), rounded(r.y()),
+                                                                              rounded(r.z()), rounded(r.w())};
   }
   return bones;
 }
