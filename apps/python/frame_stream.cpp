@@ -48,6 +48,7 @@ void FrameStream::keep(const TrackedFrame& tracked, const DepthFrame& depth) {
   auto frame = std::make_shared<KeptFrame>(KeptFrame{tracked, depth.depth});
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return stopping_ || frames_.size() < most_waiting_; });
+  if (stopping_) return;  // nobody waits for what the session still has in hand
   frames_.push_back(std::move(frame));
   changed_.notify_all();
 }

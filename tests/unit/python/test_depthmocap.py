@@ -76,7 +76,7 @@ def test_iteration_may_stop_anywhere():
     stream = depthmocap.track(WALK)
     next(stream)
     stream.close()
-    assert len(list(stream)) < 40, "only those that were ready: a piece of the recording"
+    assert len(list(stream)) < 10, "only those that were ready"
     threads_before = len(os.listdir("/proc/self/task"))
     for _ in range(3):
         next(depthmocap.track(WALK))
