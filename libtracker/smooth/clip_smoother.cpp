@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kMostContext = 60;  // [frames] of context on either side, however dense they are
 
 // Weights of E_smooth between frames of the usual rate; chosen on ten motions (docs/lab/smoothing.md).
-constexpr double kLambda = 500.0;           // [1/rad^2] of the joints
-constexpr double kLambdaRootTurn = 5000.0;  // [1/rad^2] of heading and tilt: a body turns more steadily than its limbs
-constexpr double kLambdaRootPlace = 50000.0;  // [1/m^2] of the root's place
+constexpr double kLambda = 800.0;           // [1/rad^2] of the joints
+constexpr double kLambdaRootTurn = 8000.0;  // [1/rad^2] of heading and tilt: a body turns more steadily than its limbs
+constexpr double kLambdaRootPlace = 80000.0;  // [1/m^2] of the root's place
 constexpr double kUsualStep_s = 1.0 / 30.0;   // [s] between frames of the usual rate
 // Keeps the system regular where a frame says nothing of a DoF and no other frame does.
 constexpr double kHold = 1e-3;

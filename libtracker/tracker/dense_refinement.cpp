@@ -61,13 +61,12 @@ double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor&
 void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input,
                              MapSolver& solver, Pose& q, MapSummary& summary) {
   int iterations = summary.iterations;
-  std::size_t measured = 0;  // of the matches; the others are of free space
   matcher_.observe(samples);
   for (int round = 0; round < rounds_; ++round) {
     fk_.update(actor.skeleton, q);
     placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
     matcher_.match(placed_, matches_);
-    measured = matches_.size();
+    measured_ = matches_.size();
     for (SurfaceMatch& match : matches_) match.weight *= noise_.information();
     free_space_.match(placed_, matches_);
     input.surface = &matches_;
@@ -75,8 +74,11 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Ac
     iterations += summary.iterations;
   }
   summary.iterations = iterations;
+}
+
+void DenseRefinement::learnNoise(const Actor& actor, const Pose& q) {
   fk_.update(actor.skeleton, q);
-  noise_.observe(std::span(matches_).first(measured), fk_);
+  noise_.observe(std::span(matches_).first(measured_), fk_);
 }
 
 }  // namespace depthmocap

@@ -27,6 +27,8 @@ class DenseRefinement {
   void refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input, MapSolver& solver, Pose& q,
               MapSummary& summary);
 
+  // The last refine() fits: how far its matches lie off weighs those of the frames to come.
+  void learnNoise(const Actor& actor, const Pose& q);
   // What was learned of the camera's noise is of another run.
   void forget() { noise_ = {}; }
 
@@ -42,6 +44,7 @@ class DenseRefinement {
   FreeSpaceMatcher free_space_;
   int rounds_;
   SurfaceMatches matches_;
+  std::size_t measured_ = 0;  // of them, the first ones; the others are of free space
   MatchNoise noise_;
   ForwardKinematics fk_;
   PlacedSurface placed_;

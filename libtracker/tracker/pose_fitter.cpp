@@ -64,6 +64,7 @@ Hypothesis PoseFitter::fitNext(const Evidence& evidence, const Prediction& predi
     }
   }
   finish(evidence, actor, input, fit);
+  if (believed(fit.summary)) dense_.learnNoise(actor, fit.q);
   return fit;
 }
 
