@@ -1,7 +1,7 @@
 # The library `depthmocap::depthmocap`, made of the run-time layers, and what is installed for those who link it.
 # Symbols with DEPTHMOCAP_API (depthmocap/export.h) are visible; docs/reference/api.md says what they promise.
 set(run_time_layers dmc_core dmc_skeleton dmc_actor dmc_recording dmc_posedb dmc_segment dmc_classify dmc_markers dmc_prior
-    dmc_solve dmc_match dmc_tracker dmc_ik dmc_sensor dmc_smooth dmc_session dmc_calibration)
+    dmc_solve dmc_match dmc_shape dmc_tracker dmc_ik dmc_sensor dmc_smooth dmc_session dmc_calibration)
 set(run_time_libraries Ceres::ceres ${pcl_libraries} PkgConfig::flann ZLIB::ZLIB PNG::PNG fmt::fmt TBB::tbb
     Threads::Threads)
 if(DEPTHMOCAP_OPENNI2)

@@ -23,12 +23,13 @@ constexpr std::size_t kWaitingFrames = 4;            // tracked ahead of who ite
 constexpr std::chrono::milliseconds kPatience{100};  // between two looks for Ctrl-C
 
 std::unique_ptr<FrameStream> track(const std::filesystem::path& recording, const std::optional<Actor>& actor,
-                                   int people, std::optional<double> look_ahead, double smooth, int threads,
+                                   int people, std::optional<double> look_ahead, int passes, double smooth, int threads,
                                    const std::filesystem::path& camera, std::optional<double> depth_unit, int turn) {
   SessionOptions options;
   options.actor = actor;
   options.people = people;
   options.look_ahead_s = look_ahead;
+  options.passes = passes;
   options.smooth = smooth;
   options.threads = threads;
   const py::gil_scoped_release released;
@@ -97,9 +98,10 @@ constexpr const char* kTrackDoc =
     "of\n"
     "its own, a few frames ahead. actor: a measured body; people: most that are tracked (1 to 6), a Frame for each who "
     "is\n"
-    "there; look_ahead: seconds that each pose is steadied by before and after it (default 0.13, 0 = off); smooth: 0 "
-    "to 1;\n"
-    "camera, depth_unit, turn: as Recording. Raises Error.";
+    "there; look_ahead: seconds that each pose is steadied by before and after it (default 0.3, 0 = off);\n"
+    "passes: 2 fits the body of a person without an actor over the first seconds before it tracks, 1 while tracking; "
+    "smooth:\n"
+    "0 to 1; camera, depth_unit, turn: as Recording. Raises Error.";
 
 constexpr const char* kLiveDoc =
     "Tracks a camera: an iterator of Frame, until the camera's stream ends, `seconds` are over, or close(). source: "
@@ -118,7 +120,7 @@ void bindTracking(py::module_& module) {
       .def("close", &FrameStream::close, py::call_guard<py::gil_scoped_release>(),
            "Ends tracking; frames that are ready can still be taken.");
   module.def("track", &track, kTrackDoc, "recording"_a, py::kw_only(), "actor"_a = py::none(), "people"_a = 1,
-             "look_ahead"_a = py::none(), "smooth"_a = 0.0, "threads"_a = 2, "camera"_a = "",
+             "look_ahead"_a = py::none(), "passes"_a = 2, "smooth"_a = 0.0, "threads"_a = 2, "camera"_a = "",
              "depth_unit"_a = py::none(), "turn"_a = 0);
   module.def("live", &live, kLiveDoc, "source"_a, py::kw_only(), "actor"_a = py::none(), "people"_a = 1,
              "smooth"_a = 0.0, "seconds"_a = 0.0, "threads"_a = 2, "camera"_a = "", "depth_unit"_a = py::none(),

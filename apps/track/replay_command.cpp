@@ -123,6 +123,12 @@ void addReplayCommand(CLI::App& app) {
       ->type_name("DIR")
       ->group("Outputs");
   addLookAheadOption(*command, options->session.look_ahead_s);
+  command
+      ->add_option("--passes", options->passes,
+                   "2: the bodies of people without --actor are fitted over the first seconds, then all is tracked; 1: "
+                   "they are fitted while tracking, as live does")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
   addCorrectionOptions(*command, options->correction);
   command->add_option("--first", options->session.first_frame, "First frame number to track");
   command->add_option("--last", options->session.last_frame, "Last frame number to track");

@@ -115,6 +115,11 @@ const BodyTemplate& BodyTemplate::ofSex(Sex sex) {
   return sex == Sex::Male ? man : woman;
 }
 
+const BodyTemplate& BodyTemplate::average() {
+  static const BodyTemplate average(shippedBodies().average);
+  return average;
+}
+
 BodyTemplate::Point BodyTemplate::makePoint(Bone bone, Part part, const Vector3d& p, const Vector3d& n) const {
   return {bone, part, p, n, stretchOf(bone, part)};
 }
@@ -156,6 +161,16 @@ Vector3d BodyTemplate::normal(const Point& point, const ShapeVector& shape) cons
 ShapeJacobian BodyTemplate::placeJacobian(const Point& point) const {
   ShapeJacobian J;
   for (int i = 0; i < 3; ++i) J.row(i) = point.p0[i] * ratios_.row(point.stretch[static_cast<std::size_t>(i)]);
+  return J;
+}
+
+ShapeJacobian BodyTemplate::placeJacobian(const BonePoint& placed, Part part, const ShapeVector& shape) const {
+  const std::array<std::uint8_t, 3> stretch = stretchOf(placed.bone, part);
+  ShapeJacobian J;
+  for (int i = 0; i < 3; ++i) {
+    const auto ratio = ratios_.row(stretch[static_cast<std::size_t>(i)]);
+    J.row(i) = placed.p_bone[i] / ratio.dot(shape) * ratio;
+  }
   return J;
 }
 

@@ -36,6 +36,8 @@ class BodyTemplate {
   explicit BodyTemplate(const TemplateSurface& body);
   // The man or the woman that comes with the library.
   static const BodyTemplate& ofSex(Sex sex);
+  // The average actor's.
+  static const BodyTemplate& average();
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] const Ends& ends() const { return ends_; }
@@ -47,6 +49,8 @@ class BodyTemplate {
   [[nodiscard]] Eigen::Vector3d place(const Point& point, const ShapeVector& shape) const;
   [[nodiscard]] Eigen::Vector3d normal(const Point& point, const ShapeVector& shape) const;
   [[nodiscard]] ShapeJacobian placeJacobian(const Point& point) const;
+  // The same of a point of `part`, from its place on the surface of `shape`.
+  [[nodiscard]] ShapeJacobian placeJacobian(const BonePoint& placed, Part part, const ShapeVector& shape) const;
 
   // The surface of a shaped body, for the dense term of tracking.
   [[nodiscard]] SurfaceModel surface(const ShapeVector& shape) const;

@@ -54,6 +54,10 @@ Actor averageActor(const BoneLengths& lengths, std::shared_ptr<const SurfaceMode
   return actor;
 }
 
+Actor shapedActor(const ShapeVector& shape) {
+  return averageActor(boneLengths(shape), std::make_shared<const SurfaceModel>(BodyTemplate::average().surface(shape)));
+}
+
 Actor averageActor(double stature_m) {
   if (!(stature_m >= kShortest_m && stature_m <= kTallest_m)) {
     throw Error("a stature must lie between 1.0 and 2.2 m", "averageActor");

@@ -12,6 +12,10 @@ namespace depthmocap {
 Actor averageActor(const BoneLengths& lengths);
 Actor averageActor(const BoneLengths& lengths, std::shared_ptr<const SurfaceModel> surface);
 
+// A body of this shape of the average template, as it is fitted while tracking: with an average body's marker offsets
+// and radii.
+Actor shapedActor(const ShapeVector& shape);
+
 // A measured body: bone lengths, girths and surface by the measurement's shape, an average body's marker offsets, part
 // radii that follow the girths.
 Actor measuredActor(const ActorMeasurement& measured);

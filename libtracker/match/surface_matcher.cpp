@@ -42,6 +42,7 @@ void SurfaceMatcher::match(const PlacedSurface& placed, SurfaceMatches& matches)
     const PlacedSurface::Point& nearest = placed.parts[found->part][found->index];
     SurfaceMatch match;
     match.model = nearest.model;
+    match.part = partAt(static_cast<int>(found->part));
     match.p_world = sample.p_world.cast<double>();
     match.n_world = nearest.n_world.cast<double>();
     const double off = match.n_world.dot((nearest.p_world - sample.p_world).cast<double>());

@@ -14,7 +14,8 @@ namespace depthmocap {
 struct ReplaySessionOptions {
   double look_ahead_s = kLookAhead_s;  // [s] (0 .. 1) each pose is steadied by the frames this long before and after it
   double smooth = 0;                   // [0, 1] of the output filter; 0 = off
-  std::int64_t first_frame = 0;        // by the recording's frame numbers
+  bool fit_bodies = true;  // bodies that were not measured are fitted over the first seconds, which are read twice
+  std::int64_t first_frame = 0;  // by the recording's frame numbers
   std::int64_t last_frame = std::numeric_limits<std::int64_t>::max();
   std::size_t most_frames = std::numeric_limits<std::size_t>::max();
   std::string name = "recording";  // of the recording, in messages
@@ -27,7 +28,8 @@ struct ReplayHooks {
   std::function<bool()> stopped;                         // true once the run shall end
 };
 
-// Tracks a recording: every chosen frame, in order, deterministic.
+// Tracks a recording, from its first frame on with the bodies of its people: every chosen frame, in order,
+// deterministic.
 class ReplaySession {
  public:
   // Throws Error where no frame is chosen. All outlive the session.
@@ -42,10 +44,12 @@ class ReplaySession {
   [[nodiscard]] RunStats& stats() { return stats_; }
 
  private:
+  std::size_t fitFirst(const ReplayHooks& hooks);
   bool read(std::size_t i);
 
   RecordingReader& reader_;
-  const std::string name_;
+  Tracker& tracker_;
+  const ReplaySessionOptions options_;
   std::vector<std::size_t> chosen_;  // indices of frames
   RunStats stats_;
   PosePipeline pipeline_;

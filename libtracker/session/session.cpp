@@ -19,6 +19,7 @@ void validate(const SessionOptions& o) {
   const double look_ahead_s = o.look_ahead_s.value_or(kLookAhead_s);
   check(look_ahead_s >= 0 && look_ahead_s <= kMostLookAhead_s, "look_ahead_s", look_ahead_s, "from 0 to 1");
   check(o.smooth >= 0 && o.smooth <= 1, "smooth", o.smooth, "from 0 to 1");
+  check(o.passes == 1 || o.passes == 2, "passes", o.passes, "1 or 2");
   check(o.seconds >= 0, "seconds", o.seconds, "at least 0");
 }
 
@@ -64,6 +65,7 @@ struct Session::Impl {
     ReplaySessionOptions o;
     o.look_ahead_s = options.look_ahead_s.value_or(kLookAhead_s);
     o.smooth = options.smooth;
+    o.fit_bodies = options.passes == 2;
     ReplaySession session(*reader, tracker, o);
     session.addSink(sink);
     session.run({{}, options.warn, options.stopped});

@@ -33,7 +33,9 @@ void DenseRefinement::look(const DepthImage& depth, const MaskImage& mask, const
                            const Eigen::Matrix3d& R_world_camera) {
   camera_ = camera;
   R_world_camera_ = R_world_camera;
-  if (rounds_ > 0) free_space_.observe(depth, mask, camera, R_world_camera);
+  if (rounds_ == 0) return;
+  outline_.observe(depth, mask, camera, R_world_camera);
+  free_space_.observe(depth, mask, camera, R_world_camera);
 }
 
 double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q) {
@@ -68,6 +70,8 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Ac
     matcher_.match(placed_, matches_);
     measured_ = matches_.size();
     for (SurfaceMatch& match : matches_) match.weight *= noise_.information();
+    outline_.match(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_, matches_);
+    touched_ = matches_.size() - measured_;
     free_space_.match(placed_, matches_);
     input.surface = &matches_;
     summary = solver.solve(input, q);
@@ -78,7 +82,7 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Ac
 
 void DenseRefinement::learnNoise(const Actor& actor, const Pose& q) {
   fk_.update(actor.skeleton, q);
-  noise_.observe(std::span(matches_).first(measured_), fk_);
+  noise_.observe(measured(), fk_);
 }
 
 }  // namespace depthmocap

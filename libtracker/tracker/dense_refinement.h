@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "depthmocap/actor.h"
@@ -7,6 +8,7 @@
 #include "libtracker/core/classified_pixels.h"
 #include "libtracker/match/free_space_matcher.h"
 #include "libtracker/match/match_noise.h"
+#include "libtracker/match/outline_matcher.h"
 #include "libtracker/match/surface_matcher.h"
 #include "libtracker/solve/map_solver.h"
 
@@ -17,8 +19,9 @@ namespace depthmocap {
 class DenseRefinement {
  public:
   // `rounds` of matching and solving (>= 0; 0 = off).
-  DenseRefinement(const SurfaceMatchConfig& surface, const FreeSpaceConfig& free_space, int rounds)
-      : matcher_(surface), free_space_(free_space), rounds_(rounds) {}
+  DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline, const FreeSpaceConfig& free_space,
+                  int rounds)
+      : matcher_(surface), outline_(outline), free_space_(free_space), rounds_(rounds) {}
 
   // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame.
   void look(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
@@ -35,16 +38,24 @@ class DenseRefinement {
   // The matches of the last refine(); null: it made none.
   [[nodiscard]] const SurfaceMatches* matches() const { return rounds_ > 0 ? &matches_ : nullptr; }
 
+  // Those of measured points, and of lines of sight past the body.
+  [[nodiscard]] std::span<const SurfaceMatch> measured() const { return std::span(matches_).first(measured_); }
+  [[nodiscard]] std::span<const SurfaceMatch> outline() const {
+    return std::span(matches_).subspan(measured_, touched_);
+  }
+
   // How much taller the measured person stands than the model at the solved pose: the ratio of their vertical extents.
   // 0 if it cannot be told (too little of the person in view). Needs the whole person in view.
   [[nodiscard]] double extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q);
 
  private:
   SurfaceMatcher matcher_;
+  OutlineMatcher outline_;
   FreeSpaceMatcher free_space_;
   int rounds_;
   SurfaceMatches matches_;
-  std::size_t measured_ = 0;  // of them, the first ones; the others are of free space
+  std::size_t measured_ = 0;  // of them, the first ones
+  std::size_t touched_ = 0;   // of the outline, the next ones; the others are of free space
   MatchNoise noise_;
   ForwardKinematics fk_;
   PlacedSurface placed_;

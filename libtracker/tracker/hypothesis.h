@@ -3,7 +3,7 @@
 
 #include "libtracker/core/facing.h"
 #include "libtracker/solve/map_solver.h"
-#include "libtracker/tracker/size_adapter.h"
+#include "libtracker/tracker/body_adapter.h"
 
 namespace depthmocap {
 
@@ -14,11 +14,12 @@ struct Hypothesis {
   bool fresh = false;        // from a search over all poses, not from the frame before: it has no velocity
   NormalEquations evidence;  // what the image says of q; see MapSolver::expandEvidence
   // Of a pose from one image alone: the body with the size that was found with it.
-  std::optional<SizeAdapter> body;
+  std::optional<BodyAdapter> body;
   Facing facing = Facing::Front;         // the side that the pose was found for, and
   double cost = 0;                       // [energy] against the poses of other sides
   std::optional<double> observed_scale;  // size of the actor over that of the body in use; set while it is being fitted
   bool whole_in_view = false;            // the scale is of a whole person
+  std::optional<ShapeEvidence> shape;    // of the body; set while it is being fitted
 };
 
 }  // namespace depthmocap

@@ -83,7 +83,7 @@ void Person::begin(const DepthFrame& frame) {
 std::optional<Hypothesis> Person::fit(const PersonRegion& region) {
   if (!enough(region)) return std::nullopt;
   if (!prediction_.has_pose) {
-    std::optional<Hypothesis> first = adopt(fitFromAnySide(evidence_.pixels.facing, memory.size()));
+    std::optional<Hypothesis> first = adopt(fitFromAnySide(evidence_.pixels.facing, memory.body()));
     return first && (!region.in_room || showsHeadAndNeck(*first)) ? first : std::nullopt;
   }
   Hypothesis pose =
@@ -92,10 +92,11 @@ std::optional<Hypothesis> Person::fit(const PersonRegion& region) {
     if (std::optional<Hypothesis> other = turnAround(pose)) return adopt(std::move(other));
   }
   if (!fitter_.believed(pose.summary)) return std::nullopt;
-  if (memory.size().adapting()) {
+  if (memory.body().fitsSize()) {
     pose.observed_scale = fitter_.observedScale(evidence_, memory.actor(), pose.q);
     pose.whole_in_view = fitter_.wholeInView();
   }
+  if (memory.body().fitsShape()) pose.shape = fitter_.observedShape(pose, memory.body());
   return pose;
 }
 
@@ -115,13 +116,13 @@ std::optional<Hypothesis> Person::turnAround(const Hypothesis& tracked) {
   if (!memory.dispute(share)) return std::nullopt;
   const double tracked_cost = fitter_.energyOfImage(tracked.summary) -
                               kFacingWeight * std::log(static_cast<double>(std::max(share, kLikelyFacing)));
-  std::optional<Hypothesis> other = fitFromAnySide(shares, memory.size());
+  std::optional<Hypothesis> other = fitFromAnySide(shares, memory.body());
   return other && other->cost < config_.policy.switch_gain * tracked_cost ? other : std::nullopt;
 }
 
 // A pose from this image alone. Where the classifier doubts from which side the actor is seen, each likely side is
 // tried, and the pose that explains the image best decides; `best_` is then the evidence of its side.
-std::optional<Hypothesis> Person::fitFromAnySide(const FacingShares& shares, const SizeAdapter& body) {
+std::optional<Hypothesis> Person::fitFromAnySide(const FacingShares& shares, const BodyAdapter& body) {
   if (!observer.tellsFacings()) {
     best_ = evidence_;
     return fitter_.fitFirst(best_, body);

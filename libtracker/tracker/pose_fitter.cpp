@@ -25,7 +25,7 @@ PoseFitter::PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor
       prior_builder_(config.prior),
       solver_(config.solve),
       global_(config.prior.neighbours.back(), config.policy.start_poses),
-      dense_(config.surface, config.free_space, config.policy.dense_rounds) {}
+      dense_(config.surface, config.outline, config.free_space, config.policy.dense_rounds) {}
 
 void PoseFitter::look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
                       const Eigen::Matrix3d& R_world_camera) {
@@ -76,7 +76,7 @@ void PoseFitter::finish(const Evidence& evidence, const Actor& actor, MapInput i
   solver_.expandEvidence(input, fit.q, fit.evidence);
 }
 
-std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const SizeAdapter& body) {
+std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const BodyAdapter& body) {
   Hypothesis fit;
   fit.fresh = true;
   fit.body = body;
@@ -85,7 +85,7 @@ std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const S
     const Actor& actor = fit.body->actor();
     found = &global_.find(legs_.complete(evidence.markers_world, actor), searchScale(actor), actor, *database_, search_,
                           prior_builder_, solver_);
-    if (!found->found || !fit.body->adapting()) break;
+    if (!found->found || !fit.body->fitsSize()) break;
     fit.body->rescale(observedScale(evidence, actor, found->q));
   }
   if (!found->found) return std::nullopt;
@@ -120,6 +120,13 @@ double PoseFitter::observedScale(const Evidence& evidence, const Actor& actor, c
   if (whole_in_view_) return estimate.valid ? estimate.scale : 1.0;
   const double typical = config_.policy.assumed_stature_m / actor.stature_m();
   return (estimate.spread_m2 * estimate.scale + kTypical_m2 * typical) / (estimate.spread_m2 + kTypical_m2);
+}
+
+ShapeEvidence PoseFitter::observedShape(const Hypothesis& fit, const BodyAdapter& body) {
+  const MapConfig& solve = config_.solve;
+  fk_.update(body.actor().skeleton, fit.q);
+  return shapeEvidence(body.shape(), fk_, {dense_.measured(), dense_.outline()},
+                       solve.lambda_surface / (2.0 * solve.sigma_surface_m * solve.sigma_surface_m), fit.evidence);
 }
 
 }  // namespace depthmocap

@@ -39,7 +39,7 @@ class PoseFitter {
   Hypothesis fitNext(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
                      const FootContacts* contacts);
   // A pose from one image alone; a body whose size is being fitted takes it at once. None if no pose is believed.
-  std::optional<Hypothesis> fitFirst(const Evidence& evidence, const SizeAdapter& body);
+  std::optional<Hypothesis> fitFirst(const Evidence& evidence, const BodyAdapter& body);
 
   // The fit of the seen markers is close enough to be a person.
   [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config_.policy.max_rms_m; }
@@ -48,6 +48,8 @@ class PoseFitter {
   // How much larger the actor is than this body: by the height of the whole person where it is in view, else by the
   // markers and by the assumed stature.
   double observedScale(const Evidence& evidence, const Actor& actor, const Pose& q);
+  // What the image says of the body's shape, by the last fit, whose pose `fit` is.
+  ShapeEvidence observedShape(const Hypothesis& fit, const BodyAdapter& body);
   // Nothing hides or cuts off a part of the actor.
   [[nodiscard]] bool wholeInView() const { return whole_in_view_; }
 

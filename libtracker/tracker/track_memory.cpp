@@ -12,15 +12,15 @@ constexpr float kDisputedShare = 0.01F;  // a side that the image gives less is 
 constexpr int kDisputePatience = 3;      // [frames] of dispute before other sides are tried for the first time
 constexpr int kDisputePeriod = 15;       // [frames] of dispute between two trials of other sides
 
-SizeAdapter firstSize(const TrackPolicy& policy, const std::optional<Actor>& given) {
+BodyAdapter firstBody(const TrackPolicy& policy, const std::optional<Actor>& given) {
   return {given ? *given : averageActor(averageBoneLengths(policy.assumed_stature_m)), given.has_value(),
-          policy.adapt_s};
+          policy.adapt_s, policy.shape_s};
 }
 
 }  // namespace
 
 TrackMemory::TrackMemory(const TrackPolicy& policy, const std::optional<Actor>& given)
-    : policy_(policy), first_size_(firstSize(policy, given)), size_(first_size_) {}
+    : policy_(policy), first_body_(firstBody(policy, given)), body_(first_body_) {}
 
 Prediction TrackMemory::predict(double time_s, const Eigen::Matrix3d& R_world_camera) {
   Prediction prediction;
@@ -47,7 +47,8 @@ std::optional<ExpectedActor> TrackMemory::expectedActor(double time_s, const Eig
     return ExpectedActor{trunk_camera_ + R_world_camera.transpose() * history_.walkedOn(time_s), unseen_s};
   }
   history_ = {};
-  size_ = first_size_;
+  if (body_.isFitted()) fitted_body_ = body_.fixed();
+  body_ = first_body_;
   return std::nullopt;
 }
 
@@ -57,10 +58,11 @@ void TrackMemory::accept(const Hypothesis& pose, const Prediction& prediction,
   wanted_camera_.reset();
   history_.accept(pose.q, prediction.time_s, pose.fresh);
   if (pose.body) {
-    size_ = *pose.body;
+    body_ = *pose.body;
     disputed_frames_ = 0;
   }
-  if (pose.observed_scale) size_.observe(*pose.observed_scale, pose.whole_in_view ? prediction.dt_s : 0.0);
+  if (pose.observed_scale) body_.observeSize(*pose.observed_scale, pose.whole_in_view ? prediction.dt_s : 0.0);
+  if (pose.shape) body_.observeShape(*pose.shape, prediction.dt_s);
   if (pose.fresh) return feet_.reset();
   feet_.observe(actor().skeleton, pose.q, prediction.time_s, floor_world);
 }
@@ -83,12 +85,17 @@ bool TrackMemory::dispute(float share) {
 
 void TrackMemory::forget(const std::optional<Eigen::Vector3d>& wanted_camera) {
   history_ = {};
-  size_ = first_size_;
+  body_ = first_body_;
   wanted_camera_ = wanted_camera;
 }
 
+void TrackMemory::keepBody() {
+  if (body_.isFitted()) fitted_body_ = body_.fixed();
+  if (fitted_body_) first_body_ = *fitted_body_;
+}
+
 void TrackMemory::use(const Actor& actor) {
-  first_size_ = size_ = {actor, true, policy_.adapt_s};
+  first_body_ = body_ = {actor, true, policy_.adapt_s, policy_.shape_s};
 }
 
 }  // namespace depthmocap

@@ -1,10 +1,10 @@
 #pragma once
 #include <optional>
 
+#include "libtracker/tracker/body_adapter.h"
 #include "libtracker/tracker/foot_watch.h"
 #include "libtracker/tracker/hypothesis.h"
 #include "libtracker/tracker/prediction.h"
-#include "libtracker/tracker/size_adapter.h"
 #include "libtracker/tracker/track_history.h"
 #include "libtracker/tracker/tracker_config.h"
 
@@ -32,9 +32,11 @@ class TrackMemory {
   void forget(const std::optional<Eigen::Vector3d>& wanted_camera);
   // The same actor has been measured: tracking goes on with this body, whose size is fixed.
   void use(const Actor& actor);
+  // From the next forget() on the body that was fitted last is the actor's, fixed, if enough was seen of it.
+  void keepBody();
 
-  [[nodiscard]] const SizeAdapter& size() const { return size_; }
-  [[nodiscard]] const Actor& actor() const { return size_.actor(); }
+  [[nodiscard]] const BodyAdapter& body() const { return body_; }
+  [[nodiscard]] const Actor& actor() const { return body_.actor(); }
   [[nodiscard]] TrackState state() const { return history_.state(); }
   [[nodiscard]] const Pose& pose() const { return history_.prev(); }  // the last one; undefined when lost
   [[nodiscard]] const FootContacts& contacts() const { return feet_.contacts(); }
@@ -43,8 +45,9 @@ class TrackMemory {
   std::optional<ExpectedActor> expectedActor(double time_s, const Eigen::Matrix3d& R_world_camera);
 
   TrackPolicy policy_;
-  SizeAdapter first_size_;
-  SizeAdapter size_;
+  BodyAdapter first_body_;
+  BodyAdapter body_;
+  std::optional<BodyAdapter> fitted_body_;  // of the one who was tracked before
   TrackHistory history_;
   FootWatch feet_;
   std::optional<Eigen::Vector3d> wanted_camera_;            // [m] where to look for somebody, once

@@ -23,6 +23,7 @@ TrackerConfig paperConfig() {
   config.prior = PriorConfig{};
   config.solve = MapConfig{};
   config.policy.dense_rounds = 0;
+  config.policy.shape_s = 0;
   config.policy.expect_sides = false;
   config.policy.hold_feet = false;
   return config;
@@ -46,6 +47,8 @@ std::vector<ConfigField> TrackPolicy::fields() {
       {"hold_feet", &hold_feet, "", kAnyNumber, "Feet that stand are held where they are"},
       {"assumed_stature_m", &assumed_stature_m, "m", fromTo(1.0, 2.2), "Of an uncalibrated actor at the start"},
       {"adapt_s", &adapt_s, "s", atLeast(0), "Good frames over which the size of an uncalibrated actor is fitted"},
+      {"shape_s", &shape_s, "s", atLeast(0),
+       "Frames over which its bone lengths and girths are fitted; 0 = not at all"},
   };
 }
 
@@ -55,9 +58,10 @@ void TrackPolicy::validate() const {
 }
 
 std::vector<TrackerConfig::Section> TrackerConfig::sections() {
-  return {{"segment", segment.fields()}, {"classify", classify.fields()},     {"markers", markers.fields()},
-          {"search", search.fields()},   {"prior", prior.fields()},           {"solve", solve.fields()},
-          {"surface", surface.fields()}, {"free_space", free_space.fields()}, {"policy", policy.fields()}};
+  return {{"segment", segment.fields()}, {"classify", classify.fields()}, {"markers", markers.fields()},
+          {"search", search.fields()},   {"prior", prior.fields()},       {"solve", solve.fields()},
+          {"surface", surface.fields()}, {"outline", outline.fields()},   {"free_space", free_space.fields()},
+          {"policy", policy.fields()}};
 }
 
 void TrackerConfig::validate() const {
@@ -68,6 +72,7 @@ void TrackerConfig::validate() const {
   prior.validate();
   solve.validate();
   surface.validate();
+  outline.validate();
   free_space.validate();
   policy.validate();
   checkConfig(people >= 1 && people <= kMostPeople, "TrackerConfig", "people", people, "from 1 to 6");

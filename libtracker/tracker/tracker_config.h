@@ -3,6 +3,7 @@
 #include "libtracker/core/config_fields.h"
 #include "libtracker/markers/find_markers.h"
 #include "libtracker/match/free_space_matcher.h"
+#include "libtracker/match/outline_matcher.h"
 #include "libtracker/match/surface_matcher.h"
 #include "libtracker/posedb/pose_search.h"
 #include "libtracker/prior/prior_config.h"
@@ -27,6 +28,7 @@ struct TrackPolicy {
   bool hold_feet = true;         // feet that stand are held where they are; false: the paper
   double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
   double adapt_s = 3.0;             // [s] of good frames over which an uncalibrated actor's size is fitted
+  double shape_s = 10.0;            // [s] of frames over which its bone lengths and girths are fitted; 0 = not
   std::vector<ConfigField> fields();
   void validate() const;
 };
@@ -47,6 +49,7 @@ struct TrackerConfig {
   PriorConfig prior = measuredPrior();
   MapConfig solve = measuredWeights();
   SurfaceMatchConfig surface;
+  OutlineConfig outline;
   FreeSpaceConfig free_space;
   TrackPolicy policy;
   int people = 1;   // (1 .. kMostPeople) tracked at the same time

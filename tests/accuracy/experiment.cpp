@@ -26,6 +26,7 @@
 #include "libtracker/body/sample_surface.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/recording/track_files.h"
+#include "libtracker/session/body_pass.h"
 #include "libtracker/session/pose_pipeline.h"
 #include "libtracker/tracker/alignment.h"
 #include "libtracker/tracker/measurement.h"
@@ -54,6 +55,7 @@ struct ExperimentOptions {
   double look_ahead_s = 0;  // each frame by those before it alone, as live
   std::string true_body;    // SEX,STATURE,WEIGHT of the built-in body that was rendered
   double actor_scale = 1;   // of that body or of --actor
+  bool two_passes = false;  // as replay: the body is fitted first
   bool true_labels = false;
   bool true_markers = false;
   int neighbours = 0;  // K alone, 0 = the default
@@ -146,6 +148,7 @@ void experiment(const ExperimentOptions& o) {
   RunStats stats;
   PosePipeline pipeline(tracker, o.look_ahead_s, o.track.smooth, stats);
   pipeline.addSink(outputs);
+  if (o.two_passes) fitBodies(*reader, tracker, {}, {});
   DepthFrame frame;
   for (std::size_t i = 0; i < reader->frameCount(); ++i) {
     reader->read(i, frame);
@@ -165,6 +168,7 @@ void addOptions(CLI::App& app, ExperimentOptions& o) {
   app.add_option("--true-body", o.true_body, "Track with the built-in body of this SEX,STATURE,WEIGHT");
   app.add_option("--actor-scale", o.actor_scale, "Track with that body, or --actor's, so many times as large")
       ->check(CLI::Range(0.5, 2.0));
+  app.add_flag("--two-passes", o.two_passes, "Fit the body over the first seconds, then track, as replay does");
   app.add_flag("--true-labels", o.true_labels, "Take each pixel's part from truth/labels");
   app.add_flag("--true-markers", o.true_markers, "Take the markers from truth/pose.csv and the true body");
   app.add_option("--neighbours", o.neighbours, "K of the local model; otherwise the default");

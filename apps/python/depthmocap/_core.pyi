@@ -168,7 +168,7 @@ class PoseTrack(TypedDict):
     q: _Floats
 
 def track(recording: _Path, *, actor: Actor | None = None, people: int = 1, look_ahead: float | None = None,
-          smooth: float = 0.0, threads: int = 2, camera: _Path = "", depth_unit: float | None = None,
+          passes: int = 2, smooth: float = 0.0, threads: int = 2, camera: _Path = "", depth_unit: float | None = None,
           turn: int = 0) -> FrameStream: ...
 def live(source: str, *, actor: Actor | None = None, people: int = 1, smooth: float = 0.0, seconds: float = 0.0,
          threads: int = 2, camera: _Path = "", depth_unit: float | None = None, turn: int = 0,

@@ -17,10 +17,13 @@ namespace depthmocap {
 
 struct SessionOptions {
   std::optional<Models> models{};  // none: Models::shipped()
-  std::optional<Actor> actor{};  // as its file says; none: an average body whose size is fitted over the first seconds
-  // [s] (0 .. 1) each pose is steadied by the frames this long before and after it; none: 0.13 for a recording, as
+  std::optional<Actor> actor{};  // as its file says; none: an average body whose shape is fitted over the first seconds
+  // [s] (0 .. 1) each pose is steadied by the frames this long before and after it; none: 0.3 for a recording, as
   // `depthmocap replay`. A camera has no look-ahead.
   std::optional<double> look_ahead_s{};
+  // Over a recording without an actor, 1 or 2. 2: its first seconds are tracked before, so that the first frame has the
+  // body that was fitted over them. A camera has one.
+  int passes = 2;
   double smooth = 0;                // [0, 1] of the output filter; 0 = off
   double seconds = 0;               // [s] (>= 0) of a camera's time; 0 = until it ends or `stopped`
   int people = 1;                   // (1 .. 6) tracked at the same time

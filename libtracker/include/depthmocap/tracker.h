@@ -56,6 +56,7 @@ class DEPTHMOCAP_API Tracker {
   [[nodiscard]] const Actor& actor(int person = 1) const;
 
  private:
+  friend struct FittedBody;
   friend struct FrameEvidence;
   friend struct TrackerMeasurement;
   struct Impl;

@@ -131,9 +131,17 @@ TEST_F(Sessions, AFrameThatCannotBeReadIsEmptyAndSaid) {
   EXPECT_EQ(log_, (std::vector<std::string>{"a0", "a1", "a2", "a3"}));
   ASSERT_EQ(warnings.size(), 1U) << "one reason is one line";
   EXPECT_NE(warnings[0].find("2 frames"), std::string::npos) << warnings[0];
-  EXPECT_EQ(progress, 4U);
+  EXPECT_EQ(progress, 8U) << "its frames are read once for the body, once for the poses";
   EXPECT_EQ(a_.depths[1], 0.0F);
   EXPECT_NE(a_.depths[3], 0.0F);
+}
+
+TEST_F(Sessions, OnePassReadsEachFrameOnce) {
+  MadeReader reader(4);
+  ReplaySession session(reader, tracker_, {.look_ahead_s = 0, .fit_bodies = false});
+  std::size_t total = 0;
+  session.run({[&](std::size_t, std::size_t all) { total = all; }, {}, {}});
+  EXPECT_EQ(total, 4U);
 }
 
 TEST_F(Sessions, RefusesWhereNothingIsChosenOrReadable) {
