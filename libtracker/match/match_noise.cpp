@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kOutlier_m = 0.02;  // [m] scale of the Lorentzian that keeps wrong matches from counting as noise
 constexpr double kShare = 0.1;       // of the present frame in the running mean: about ten frames count
-// Neither a frame of bad fits nor a rendered one without noise may change the weights by more; chosen by hand.
-constexpr double kLeastInformation = 0.5;
-constexpr double kMostInformation = 6.0;
-
 }  // namespace
 
 void MatchNoise::observe(std::span<const SurfaceMatch> matches, const ForwardKinematics& fk) {
@@ -29,8 +25,8 @@ void MatchNoise::observe(std::span<const SurfaceMatch> matches, const ForwardKin
 }
 
 double MatchNoise::information() const {
-  const double ratio = kUsual_m / deviation_m_;
-  return std::clamp(ratio * ratio, kLeastInformation, kMostInformation);
+  const double ratio = range_.usual_m / deviation_m_;
+  return std::clamp(std::pow(ratio, range_.power), range_.least, range_.most);
 }
 
 }  // namespace depthmocap

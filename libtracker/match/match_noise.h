@@ -6,21 +6,28 @@
 
 namespace depthmocap {
 
-// How far the measured points of one person lie off the fitted surface, learned from the frames before: the noise of
-// the sensor at the person's distance, whatever camera it is, and what the body's shape lacks. Matches of a precise
-// camera count more.
+// How far the matches of one person lie off the fitted body, learned from the frames before: the noise of the sensor at
+// the person's distance, whatever camera it is, and what the body's shape lacks. Matches of a precise camera, and of a
+// body of the right shape, count more.
 class MatchNoise {
  public:
-  // The fit of a frame: its matches of measured points, and the body as fitted.
+  struct Range {
+    double usual_m;      // [m] deviation of matches that are worth 1
+    double least, most;  // worth
+    double power;        // (> 0) of the worth in usual over observed deviation
+  };
+  // At first matches are as good as `first_m` [m].
+  MatchNoise(const Range& range, double first_m) : range_(range), deviation_m_(first_m) {}
+
+  // The fit of a frame: its matches of one kind, and the body as fitted.
   void observe(std::span<const SurfaceMatch> matches, const ForwardKinematics& fk);
   // What a match is worth against one of usual noise.
   [[nodiscard]] double information() const;
   [[nodiscard]] double deviation_m() const { return deviation_m_; }  // [m]
 
  private:
-  static constexpr double kUsual_m =
-      0.010;  // [m] of a Kinect v1 on walks, at which MapConfig::lambda_surface was chosen
-  double deviation_m_ = kUsual_m;
+  Range range_;
+  double deviation_m_;
 };
 
 }  // namespace depthmocap

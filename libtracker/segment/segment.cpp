@@ -45,8 +45,12 @@ constexpr int kCompanyFrames = 30;
 // Share of a person's usual score from which another component is somebody.
 constexpr float kCompanyLooks = 0.1F;
 
+// A picture is not measured up to its very border: who ends this share of its width before it may go on beyond it.
+constexpr int kRimShare = 100;
+
 // Counts the mask's pixels, all of them in the box.
 void summarise(const DepthImage& depth, const CameraModel& camera, const PixelBox& box, PersonRegion& out) {
+  const int rim = std::max(1, depth.width / kRimShare);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   out.pixel_count = 0;
   out.touches_border = false;
@@ -56,7 +60,7 @@ void summarise(const DepthImage& depth, const CameraModel& camera, const PixelBo
       if (out.mask.at(x, y) == 0) continue;
       ++out.pixel_count;
       sum += camera.unproject(x, y, static_cast<double>(depth.at(x, y)));
-      out.touches_border |= x == 0 || y == 0 || x == depth.width - 1 || y == depth.height - 1;
+      out.touches_border |= x < rim || y < rim || x >= depth.width - rim || y >= depth.height - rim;
     }
   }
   if (out.pixel_count > 0) out.centroid_camera = sum / out.pixel_count;

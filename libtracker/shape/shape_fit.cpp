@@ -10,9 +10,9 @@ constexpr double kLengthDeviation = 0.035;
 constexpr double kGirthDeviation = 0.12;
 constexpr double kStatureDeviation = 0.03;  // of the stature that the picture's height tells
 
-// The matches of one frame count as this many independent points (the sensor's noise is the same over many pixels) of
-// this deviation.
-constexpr double kPointsOfFrame = 40;
+// The matches of one frame count as this many independent points of this deviation: few, because clothes and whatever
+// else the template lacks are wrong in all of them alike.
+constexpr double kPointsOfFrame = 4;
 constexpr double kPointDeviation_m = 0.010;
 // Frames resemble each other, and what is wrong in one is wrong in the next: all of them count as no more than this
 // many, the newest most.

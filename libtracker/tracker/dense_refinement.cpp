@@ -27,7 +27,29 @@ double trimmedExtent(std::vector<float>& values) {
   return static_cast<double>(*high) - lowest;
 }
 
+// Worth of the matches of depth: usual is a Kinect v1 on walks, at which MapConfig::lambda_surface was chosen. Neither
+// a frame of bad fits nor a rendered one without noise may change it by more than the range.
+constexpr MatchNoise::Range kDepthNoise{0.010, 0.5, 6.0, 2.0};
+// Of the outline: usual is the same on a body of the right shape. Loose clothes and average bodies lie off it by two
+// centimetres, and little is to be believed of it then; at first it is not known whether this one does.
+constexpr MatchNoise::Range kOutlineNoise{0.010, 0.01, 1.5, 4.0};
+constexpr double kFirstOutline_m = 0.02;
+
 }  // namespace
+
+DenseRefinement::DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline,
+                                 const FreeSpaceConfig& free_space, int rounds)
+    : matcher_(surface),
+      outline_(outline),
+      free_space_(free_space),
+      rounds_(rounds),
+      noise_(kDepthNoise, kDepthNoise.usual_m),
+      outline_noise_(kOutlineNoise, kFirstOutline_m) {}
+
+void DenseRefinement::forget() {
+  noise_ = {kDepthNoise, kDepthNoise.usual_m};
+  outline_noise_ = {kOutlineNoise, kFirstOutline_m};
+}
 
 void DenseRefinement::look(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
                            const Eigen::Matrix3d& R_world_camera) {
@@ -72,6 +94,7 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Ac
     for (SurfaceMatch& match : matches_) match.weight *= noise_.information();
     outline_.match(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_, matches_);
     touched_ = matches_.size() - measured_;
+    for (std::size_t i = measured_; i < matches_.size(); ++i) matches_[i].weight *= outline_noise_.information();
     free_space_.match(placed_, matches_);
     input.surface = &matches_;
     summary = solver.solve(input, q);
@@ -83,6 +106,7 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Ac
 void DenseRefinement::learnNoise(const Actor& actor, const Pose& q) {
   fk_.update(actor.skeleton, q);
   noise_.observe(measured(), fk_);
+  outline_noise_.observe(outline(), fk_);
 }
 
 }  // namespace depthmocap

@@ -20,8 +20,7 @@ class DenseRefinement {
  public:
   // `rounds` of matching and solving (>= 0; 0 = off).
   DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline, const FreeSpaceConfig& free_space,
-                  int rounds)
-      : matcher_(surface), outline_(outline), free_space_(free_space), rounds_(rounds) {}
+                  int rounds);
 
   // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame.
   void look(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
@@ -33,7 +32,7 @@ class DenseRefinement {
   // The last refine() fits: how far its matches lie off weighs those of the frames to come.
   void learnNoise(const Actor& actor, const Pose& q);
   // What was learned of the camera's noise is of another run.
-  void forget() { noise_ = {}; }
+  void forget();
 
   // The matches of the last refine(); null: it made none.
   [[nodiscard]] const SurfaceMatches* matches() const { return rounds_ > 0 ? &matches_ : nullptr; }
@@ -56,7 +55,8 @@ class DenseRefinement {
   SurfaceMatches matches_;
   std::size_t measured_ = 0;  // of them, the first ones
   std::size_t touched_ = 0;   // of the outline, the next ones; the others are of free space
-  MatchNoise noise_;
+  MatchNoise noise_;          // of measured points, and of the outline
+  MatchNoise outline_noise_;
   ForwardKinematics fk_;
   PlacedSurface placed_;
   CameraModel camera_;

@@ -96,7 +96,7 @@ std::optional<Hypothesis> Person::fit(const PersonRegion& region) {
     pose.observed_scale = fitter_.observedScale(evidence_, memory.actor(), pose.q);
     pose.whole_in_view = fitter_.wholeInView();
   }
-  if (memory.body().fitsShape()) pose.shape = fitter_.observedShape(pose, memory.body());
+  if (memory.body().fitsShape() && fitter_.wholeInView()) pose.shape = fitter_.observedShape(pose, memory.body());
   return pose;
 }
 

@@ -5,7 +5,7 @@ from measuring.tables import mean, number, table
 FRAMES = 60
 CAMERAS = {"Kinect v1": "kinect1", "time of flight (Kinect v2)": "kinect2", "active stereo (D435)": "d435"}
 BODIES = ("average", "true")
-WAYS = {"live": (), "replay": ("--look-ahead", 0.3)}
+WAYS = {"live": (), "replay": ("--look-ahead", 0.3, "--two-passes")}
 
 
 def recording(lab, take, camera):

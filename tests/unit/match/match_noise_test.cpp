@@ -8,6 +8,8 @@
 namespace depthmocap {
 namespace {
 
+constexpr MatchNoise::Range kRange{0.010, 0.5, 6.0, 2.0};
+
 // Matches of points of the pelvis that were measured with a normal error.
 SurfaceMatches measured(const ForwardKinematics& fk, double deviation_m, Random& random) {
   SurfaceMatches matches;
@@ -26,7 +28,7 @@ MatchNoise noiseAfter(int frames, double deviation_m, double share_of_outliers =
   ForwardKinematics fk;
   fk.update(makeSkeleton(BoneLengths{}), Pose::Zero());
   Random random(1);
-  MatchNoise noise;
+  MatchNoise noise(kRange, kRange.usual_m);
   for (int i = 0; i < frames; ++i) {
     SurfaceMatches matches = measured(fk, deviation_m, random);
     for (SurfaceMatch& match : matches) {
@@ -44,10 +46,20 @@ TEST(MatchNoise, LearnsTheDeviationOfTheMeasuredPoints) {
 }
 
 TEST(MatchNoise, APreciseCameraCountsMoreWithinLimits) {
-  EXPECT_DOUBLE_EQ(MatchNoise().information(), 1.0);
+  EXPECT_DOUBLE_EQ(MatchNoise(kRange, kRange.usual_m).information(), 1.0);
   EXPECT_NEAR(noiseAfter(60, 0.005).information(), 4.0, 0.6);
   EXPECT_DOUBLE_EQ(noiseAfter(60, 0.0001).information(), 6.0);
   EXPECT_DOUBLE_EQ(noiseAfter(60, 0.05).information(), 0.5);
+}
+
+TEST(MatchNoise, UntrustedMatchesHaveToProveThemselves) {
+  MatchNoise noise({0.010, 0.01, 1.5, 4.0}, 0.02);
+  EXPECT_NEAR(noise.information(), 1.0 / 16.0, 1e-9);
+  ForwardKinematics fk;
+  fk.update(makeSkeleton(BoneLengths{}), Pose::Zero());
+  Random random(1);
+  for (int i = 0; i < 60; ++i) noise.observe(measured(fk, 0.010, random), fk);
+  EXPECT_NEAR(noise.information(), 1.0, 0.5);
 }
 
 TEST(MatchNoise, WrongMatchesHardlyCount) {
