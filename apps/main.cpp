@@ -1,26 +1,26 @@
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <csignal>
-#include <iostream>
-#include <new>
-#include <string>
 
 #include "apps/commands.h"
 #include "apps/plot/plot_command.h"
-#include "depthmocap/error.h"
-#include "libtracker/core/parse_number.h"
-#include "libtracker/core/printable.h"
+#include "apps/program/learning.h"
+#include "apps/program/program.h"
 
 namespace depthmocap {
-
 namespace {
 
-// Exit codes of the program.
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongUsage = 2;
+// In the list of commands; each is answered by the other program.
+void addLearningCommands(CLI::App& app, char** argv) {
+#ifdef DEPTHMOCAP_LEARNING
+  for (const LearningCommand& command : kLearningCommands) {
+    app.add_subcommand(command.name, command.help)->callback([argv] { becomeLearningProgram(argv); });
+  }
+#else
+  static_cast<void>(app);
+  static_cast<void>(argv);
+#endif
+}
 
-void addCommands(CLI::App& app) {
+void addCommands(CLI::App& app, char** argv) {
   addReplayCommand(app);
   addLiveCommand(app);
   addRecordCommand(app);
@@ -28,10 +28,6 @@ void addCommands(CLI::App& app) {
   addCalibrateCommand(app);
   addEvaluateCommand(app);
   addPlotCommand(app);
-#ifdef DEPTHMOCAP_LEARNING
-  addForestCommand(app);
-  addRoomsCommand(app);
-#endif
   addPosedbCommand(app);
   addMotionCommand(app);
   addIkCommand(app);
@@ -40,69 +36,18 @@ void addCommands(CLI::App& app) {
   addBodyTemplatesCommand(app);
   addConfigTableCommand(app);
   addServeCommand(app);
-#ifdef DEPTHMOCAP_LEARNING
-  addSynthesizeCommand(app);
-#endif
-}
-
-int failure(const std::string& message) {
-  constexpr std::size_t kMostBytes = 4000;  // a path has at most 4096, an error of ours two or three hundred more
-  std::cerr << "depthmocap: " << printable(message, kMostBytes) << std::endl;
-  return kFailed;
-}
-
-// CLI11's ranges let NaN pass, and some options have no upper limit. Goes through all commands.
-void allowOnlyFiniteNumbers(CLI::App& app) {
-  for (CLI::Option* option : app.get_options()) {
-    if (!option->get_type_name().starts_with("FLOAT")) continue;
-    option->check([](const std::string& text) {
-      const auto number = parseDouble(text);
-      constexpr double kLargest = 1e9;  // far above any option's sense, far below where sums lose it
-      return number && std::abs(*number) <= kLargest ? "" : "must be a number between -1e9 and 1e9";
-    });
-  }
-  for (CLI::App* command : app.get_subcommands(nullptr)) allowOnlyFiniteNumbers(*command);
-}
-
-// CLI11 says only "A subcommand is required" to a misspelt command.
-bool isUnknownCommand(const CLI::App& app, int argc, char** argv) {
-  return app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
-}
-
-int run(int argc, char** argv) {
-  CLI::App app{"Real-time body tracking from one depth camera.", "depthmocap"};
-  app.set_version_flag("--version", "depthmocap " DEPTHMOCAP_VERSION);
-  app.require_subcommand(1);
-  app.footer("depthmocap <command> --help explains a command.");
-  addCommands(app);
-  allowOnlyFiniteNumbers(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& asked) {
-    if (isUnknownCommand(app, argc, argv)) {
-      std::cerr << "depthmocap: there is no command '" << argv[1] << "' (see depthmocap --help)\n";
-      return kWrongUsage;
-    }
-    if (app.exit(asked) != 0) return kWrongUsage;  // otherwise --help or --version, which it has printed
-  }
-  std::cout.flush();
-  if (!std::cout) throw Error("cannot be written", "standard output");
-  return kDone;
+  addLearningCommands(app, argv);
 }
 
 }  // namespace
-
 }  // namespace depthmocap
 
 int main(int argc, char** argv) {
-  // A reader that is gone and a file that may not grow are errors of writing, which are reported.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    return depthmocap::run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return depthmocap::failure("out of memory");
-  } catch (const std::exception& error) {
-    return depthmocap::failure(error.what());
-  }
+  return depthmocap::runProgram(argc, argv, [&](CLI::App& app) {
+#ifdef DEPTHMOCAP_LEARNING
+    // Before anything of the arguments is read: they are the other program's.
+    if (argc > 1 && depthmocap::isLearningCommand(argv[1])) depthmocap::becomeLearningProgram(argv);
+#endif
+    depthmocap::addCommands(app, argv);
+  });
 }

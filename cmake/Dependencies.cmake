@@ -42,7 +42,7 @@ if(DEPTHMOCAP_PROGRAM OR DEPTHMOCAP_LEARNING)
   depthmocap_find(OpenCV libopencv-dev "${needed_by}" COMPONENTS core imgproc imgcodecs videoio ml)
   add_library(depthmocap_opencv INTERFACE)
   target_include_directories(depthmocap_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
-  target_link_libraries(depthmocap_opencv INTERFACE opencv_core opencv_imgproc opencv_imgcodecs opencv_videoio)
+  target_link_libraries(depthmocap_opencv INTERFACE opencv_core opencv_imgproc)
 endif()
 
 if(DEPTHMOCAP_LEARNING)

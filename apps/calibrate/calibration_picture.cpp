@@ -3,13 +3,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "apps/draw/png_of.h"
 #include "apps/draw/shapes.h"
 #include "depthmocap/error.h"
 #include "depthmocap/world_frame.h"
@@ -153,9 +153,7 @@ void writeCalibrationPicture(const std::filesystem::path& path, const Calibrator
       fmt::format("stature {:.3f} m   arm {:.3f} + {:.3f}   leg {:.3f} + {:.3f}   torso {:.3f}   shoulders {:.3f}",
                   actor.stature_m(), l.upper_arm, l.lower_arm, l.upper_leg, l.lower_leg, l.torso, l.shoulder_width),
       {16, kPanelHeight - 16}, 0.55, kTextColor, canvas);
-  std::vector<uchar> bytes;
-  if (!cv::imencode(".png", canvas, bytes)) throw Error("the picture cannot be made", path.string());
-  writeFileAtomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  writeFileAtomically(path, pngOf(canvas));
 }
 
 }  // namespace depthmocap

@@ -2,10 +2,7 @@
 
 #include <array>
 #include <fstream>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -14,8 +11,11 @@
 #include <fmt/format.h>
 
 #include "apps/draw/painter.h"
+#include "apps/draw/png_of.h"
+#include "apps/film/film.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
+#include "libtracker/core/check.h"
 #include "libtracker/core/read_file.h"
 
 namespace depthmocap {
@@ -30,14 +30,6 @@ constexpr std::size_t kSheetPictures = 12;
 constexpr int kSheetColumns = 3;
 constexpr int kSheetGap = 6;  // [px]
 const cv::Scalar kSheetGapColor(90, 82, 76);
-
-void openVideo(const fs::path& path, double fps, cv::VideoWriter& video) {
-  const cv::Size size(kPreviewWidth, kPreviewHeight);
-  for (const char* codec : {"avc1", "mp4v"}) {
-    const int fourcc = cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]);
-    if (video.open(path.string(), cv::CAP_FFMPEG, fourcc, fps, size)) return;
-  }
-}
 
 // Whether a film is all there: OpenCV does not tell of a full disk. An MP4 file is a row of boxes, each 32 bits of size
 // (1: 64 more bits hold it) and 4 characters of name; "moov", which says where the pictures are, is written last.
@@ -78,21 +70,19 @@ struct PreviewWriter::Impl {
   PendingFile pending;
   std::optional<PendingFile> scratch;
   PreviewPainter painter;
-  cv::VideoWriter video;
+  std::unique_ptr<Film> video;  // null once it is complete
   std::size_t frames = 0;
 };
 
 PreviewWriter::PreviewWriter(const fs::path& path, const CameraModel& camera, double fps)
     : impl_(new Impl{path, camera}) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // failures are ours to report
-  openVideo(impl_->film(), fps, impl_->video);
-  if (!impl_->video.isOpened()) throw Error("cannot write an MP4 film", path.string(), "was OpenCV built with FFmpeg?");
+  impl_->video = openFilm(impl_->film(), fps, kPreviewWidth, kPreviewHeight, path);
 }
 
 PreviewWriter::PreviewWriter(PreviewWriter&&) noexcept = default;
 
 PreviewWriter::~PreviewWriter() {
-  if (!impl_ || !impl_->video.isOpened() || impl_->frames == 0) return;
+  if (!impl_ || !impl_->video || impl_->frames == 0) return;
   try {
     finish();
   } catch (const Error&) {  // a destructor cannot report
@@ -100,12 +90,15 @@ PreviewWriter::~PreviewWriter() {
 }
 
 void PreviewWriter::write(const PreviewFrame& frame) {
-  impl_->video.write(impl_->painter.draw(frame));
+  const cv::Mat picture = impl_->painter.draw(frame);
+  DMC_CHECK(picture.isContinuous() && picture.cols == kPreviewWidth && picture.rows == kPreviewHeight);
+  impl_->video->write(picture.data);
   ++impl_->frames;
 }
 
 void PreviewWriter::finish() {
-  impl_->video.release();
+  impl_->video->close();
+  impl_->video.reset();
   if (!isWholeFilm(impl_->film()))
     throw Error("the film could not be written", impl_->path.string(), "is the disk full?");
   if (impl_->scratch) {
@@ -174,9 +167,7 @@ cv::Mat ContactSheet::Impl::compose() const {
 void ContactSheet::finish() {
   impl_->done = true;
   if (impl_->pictures.empty()) throw Error("no frame to show", impl_->path.string());
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", impl_->compose(), png);
-  writeFileAtomically(impl_->path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  writeFileAtomically(impl_->path, pngOf(impl_->compose()));
 }
 
 }  // namespace depthmocap

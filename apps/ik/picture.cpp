@@ -2,9 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/draw/png_of.h"
 #include "apps/draw/shapes.h"
 #include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
@@ -76,10 +76,7 @@ void drawIkPicture(const std::vector<IkTask>& tasks, const std::vector<IkSolver>
       drawPose(solver.skeleton(), q, tasks[i].targets, view, image);
     }
   }
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 9}))
-    throw Error("cannot be encoded as PNG", path.string());
-  writeFileAtomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  writeFileAtomically(path, pngOf(image));
 }
 
 }  // namespace depthmocap

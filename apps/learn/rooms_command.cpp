@@ -12,6 +12,7 @@
 
 #include "apps/commands.h"
 #include "apps/learn/forest_data.h"
+#include "apps/program/learning.h"
 #include "apps/terminal/output_check.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
@@ -126,7 +127,7 @@ void addRoomsMeasure(CLI::App& rooms) {
 }  // namespace
 
 void addRoomsCommand(CLI::App& app) {
-  CLI::App* rooms = app.add_subcommand("rooms", "Renders furnished rooms, and measures how people are found in them");
+  CLI::App* rooms = app.add_subcommand(kRoomsCommand.name, kRoomsCommand.help);
   rooms->require_subcommand(1);
   addRoomsDraw(*rooms);
   addRoomsMeasure(*rooms);

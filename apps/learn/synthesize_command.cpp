@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/program/learning.h"
 #include "apps/terminal/motion_options.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
@@ -275,7 +276,7 @@ void listMotions() {
 }  // namespace
 
 void addSynthesizeCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("synthesize", "Renders a motion as a depth recording with truth.");
+  CLI::App* command = app.add_subcommand(kSynthesizeCommand.name, kSynthesizeCommand.help);
   const auto options = std::make_shared<SynthesizeOptions>();
   SynthesizeOptions& o = *options;
   command->add_option("--motion", o.motion, "AMC or BVH file, or procedural:NAME for one of the program's own")

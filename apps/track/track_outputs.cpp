@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <span>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "libtracker/core/parse_number.h"
 #include "libtracker/output/tracker_sender.h"
 #include "libtracker/output/vmc_sender.h"
+#include "libtracker/recording/png_file.h"
 #include "libtracker/recording/track_files.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
@@ -54,10 +54,7 @@ class LabelWriter {
     const PartImage& labels = together(people, kNumberStep, all_);
     char name[32];
     std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(first.frame));
-    const cv::Mat image(labels.height, labels.width, CV_8UC1, const_cast<std::uint8_t*>(labels.data.data()));
-    std::vector<std::uint8_t> png;
-    cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 3});
-    writeFileAtomically(folder_ / name, {reinterpret_cast<const char*>(png.data()), png.size()}, Sync::WithFolder);
+    writePng8(folder_ / name, labels);
   }
   void finish() { syncFolder(folder_); }
 

@@ -1,12 +1,10 @@
 #include "forest/train/write_picture.h"
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <vector>
 
-#include "depthmocap/error.h"
 #include "libtracker/core/atomic_file.h"
 #include "libtracker/recording/part_colors.h"
+#include "libtracker/recording/png_file.h"
 
 namespace depthmocap {
 namespace {
@@ -21,9 +19,7 @@ cv::Vec3b colourOf(std::uint8_t label) {
 }  // namespace
 
 void writePicture(const cv::Mat& picture, const std::filesystem::path& path) {
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", picture, png)) throw Error("cannot encode the picture", path.string());
-  writeFileAtomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  writeFileAtomically(path, pngBytes({picture.data, picture.cols, picture.rows, picture.channels(), picture.step}));
 }
 
 void writeComparison(const TrainingImage& image, const PartImage& found, const std::filesystem::path& path) {

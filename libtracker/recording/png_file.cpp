@@ -183,4 +183,20 @@ void writePng8(const std::filesystem::path& path, const Image<std::uint8_t>& ima
   writePng(path, image);
 }
 
+std::string pngBytes(const Picture& picture) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(picture.width);
+  image.height = static_cast<png_uint_32>(picture.height);
+  image.format = picture.channels == 1 ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
+  const auto stride = static_cast<png_int_32>(picture.row_bytes);
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.pixels, stride, nullptr) == 0) {
+    throw Error(std::string("a picture cannot be made: ") + static_cast<const char*>(image.message), "PNG");
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
 }  // namespace depthmocap

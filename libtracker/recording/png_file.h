@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "depthmocap/image.h"
 
@@ -23,6 +25,15 @@ struct PngSize {
 PngSize png16Size(const std::filesystem::path& path);
 
 void writePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image);
+// A picture of 8 bits a channel to look at, as the bytes of a PNG file. Throws Error where it cannot be encoded.
+struct Picture {
+  const std::uint8_t* pixels = nullptr;
+  int width = 0, height = 0;  // (>= 1) [px]
+  int channels = 3;           // 1: grey; 3: blue, green, red
+  std::size_t row_bytes = 0;  // from one row to the next
+};
+std::string pngBytes(const Picture& picture);
+
 void writePng8(const std::filesystem::path& path, const Image<std::uint8_t>& image);
 
 }  // namespace depthmocap

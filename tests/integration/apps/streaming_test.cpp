@@ -111,8 +111,9 @@ TEST_F(Streaming, WrongValuesAreWrongUsage) {
 
 TEST_F(Streaming, InterruptedReplayCompletesItsFiles) {
   // At the pace of the recording, because of --vmc.
-  const BackgroundProgram program("replay " + recording("walk") + " --view --view-port 0 --vmc localhost:9 --joints " +
-                                      at("j.csv") + " --bvh " + at("m.bvh") + " --gltf " + at("m.glb"),
+  const BackgroundProgram program("replay --passes 1 " + recording("walk") +
+                                      " --view --view-port 0 --vmc localhost:9 --joints " + at("j.csv") + " --bvh " +
+                                      at("m.bvh") + " --gltf " + at("m.glb"),
                                   folder_ / "errors");
   EXPECT_EQ(program.waitFor("view: ").rfind("http://127.0.0.1:", 0), 0U);
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
