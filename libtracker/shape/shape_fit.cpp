@@ -50,7 +50,7 @@ struct Sums {
     const ShapeJacobian place = BodyTemplate::average().placeJacobian(match.model, match.part, shape);
     const ShapeVector a = (n * kinematics.jacobian(fk, match.model.bone, place)).transpose();
     fk.jacobian(match.model, J_q);
-    const Pose row = (n * J_q).transpose();
+    Pose row = (n * J_q).transpose();
     A.selfadjointView<Eigen::Lower>().rankUpdate(a, k);
     B.noalias() += (k * a) * row.transpose();
     g += k * off(match) * a;
