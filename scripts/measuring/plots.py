@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from measuring.tables import PAGE  # noqa: E402
 
-folder = PAGE.parent / "figures"
+folder = PAGE.parent.parent / "figures"
 
 plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2,
                      "axes.spines.top": False, "axes.spines.right": False})
