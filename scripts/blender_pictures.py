@@ -1,4 +1,4 @@
-"""Runs inside Blender: draws docs/figures/blender-handles.png and blender-retarget.png with the add-on and a real server.
+"""Runs inside Blender: draws docs/figures/blender-handles.jpg and blender-retarget.jpg with the add-on and a real server.
 
 tests/blender/run.py scripts/blender_pictures.py
 """
@@ -61,7 +61,7 @@ def draw_figure(armature, at, look, chain=None):
             limb(at + start, at + end, radius, look)
 
 
-def render(name, figures, height=1.1, distance=5.5, width=900):
+def render(name, figures, height=0.95, distance=9.0, width=900):
     scene = bpy.context.scene
     bpy.ops.mesh.primitive_plane_add(size=40)
     bpy.context.object.data.materials.append(material("floor", (0.22, 0.23, 0.25)))
@@ -84,7 +84,8 @@ def render(name, figures, height=1.1, distance=5.5, width=900):
     scene.view_settings.view_transform = "Standard"
     scene.render.resolution_x, scene.render.resolution_y = width, 360
     scene.render.image_settings.color_mode = "RGB"
-    scene.render.image_settings.compression = 100
+    scene.render.image_settings.file_format = "JPEG"
+    scene.render.image_settings.quality = 85
     scene.render.filepath = str(FIGURES / name)
     bpy.ops.render.render(write_still=True)
 
@@ -122,7 +123,7 @@ def draw_handles():
             look = looks["dragged"] if name == joint else looks[bool(handle[PINNED])]
             ball(at + handle.matrix_world.to_translation() + Vector((0, -0.03, 0)), 0.075, look)
     bpy.ops.depthmocap.pose_stop()
-    render("blender-handles.png", len(drags), height=0.95)
+    render("blender-handles.jpg", len(drags), height=0.95)
 
 
 def draw_retarget():
@@ -147,7 +148,7 @@ def draw_retarget():
         draw_figure(target, Vector((STEP_M * (i + 1), 0, 0)), material(preset, colours[preset]), chain)
     for thing in (source, *(target for _, target in pairs)):
         thing.hide_render = True
-    render("blender-retarget.png", len(pairs) + 1, height=0.95)
+    render("blender-retarget.jpg", len(pairs) + 1, height=0.95)
 
 
 draw_handles()

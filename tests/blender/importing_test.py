@@ -18,9 +18,18 @@ class Importing(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = Path(cls.folder.name)
         support.run_program("replay", WALK, "--joints", cls.path / "joints.csv", "--pose", cls.path / "pose.csv",
-                            "--bvh", cls.path / "walk.bvh", "--gltf", cls.path / "walk.glb", "--origin", "camera", "--bvh-moving")
-        with open(cls.path / "joints.csv", newline="") as file:
-            cls.rows = [row for row in csv.DictReader(file) if row["state"] != "lost"]
+                            "--bvh", cls.path / "walk.bvh", "--gltf", cls.path / "walk.glb", "--origin", "camera")
+        # As live: the body is fitted while it is tracked.
+        (cls.path / "growing").mkdir()
+        support.run_program("replay", WALK, "--passes", "1", "--joints", cls.path / "growing/joints.csv", "--pose",
+                            cls.path / "growing/pose.csv", "--bvh", cls.path / "growing/walk.bvh", "--origin", "camera",
+                            "--bvh-moving")
+        cls.rows, cls.growing_rows = (cls.rows_of(cls.path / name) for name in ("joints.csv", "growing/joints.csv"))
+
+    @staticmethod
+    def rows_of(path):
+        with open(path, newline="") as file:
+            return [row for row in csv.DictReader(file) if row["state"] != "lost"]
 
     @classmethod
     def tearDownClass(cls):
@@ -46,26 +55,35 @@ class Importing(unittest.TestCase):
         return worst
 
     def test_bvh(self):
+        self.assertLess(self.farthest(self.import_file("walk.bvh")), NEAR_MM)
+
+    def test_poses_with_joints(self):
+        self.assertLess(self.farthest(self.import_file("pose.csv")), NEAR_MM)
+
+    def test_bvh_of_a_body_that_grows(self):
         def joints(armature):  # the crown is a bone of its own in a file whose bones move
             places = support.joints_of(armature)
             from depthmocap.armature import place_of
             places["head"] = (place_of(armature, "Head") + place_of(armature, "HeadTop_End")) / 2
             return places
-        self.assertLess(self.farthest(self.import_file("walk.bvh"), joints), NEAR_MM)
+        # Its size is that of each frame, its proportions are those of the last one.
+        self.rows = self.growing_rows
+        self.assertLess(self.farthest(self.import_file("growing/walk.bvh"), joints), 20)
 
-    def test_poses_with_joints(self):
-        # The body of a run without --actor grows for some frames: its mean is imported.
-        armature = self.import_file("pose.csv")
+    def test_poses_of_a_body_that_grows(self):
+        # Its mean is imported.
+        self.rows = self.growing_rows
+        armature = self.import_file("growing/pose.csv")
         self.scene.frame_set(self.scene.frame_end)
         self.assertLess(self.farthest(armature), 20)
 
     def test_poses_with_joints_of_one_size(self):
         import shutil
+        (self.path / "truth").mkdir()
         for name in ("joints.csv", "pose.csv"):
-            shutil.copy(WALK / "truth" / name, self.path / name)
-        with open(self.path / "joints.csv", newline="") as file:
-            self.rows = list(csv.DictReader(file))
-        self.assertLess(self.farthest(self.import_file("pose.csv")), NEAR_MM)
+            shutil.copy(WALK / "truth" / name, self.path / "truth" / name)
+        self.rows = self.rows_of(self.path / "truth/joints.csv")
+        self.assertLess(self.farthest(self.import_file("truth/pose.csv")), NEAR_MM)
 
     def test_gltf(self):
         armature = self.import_file("walk.glb")
