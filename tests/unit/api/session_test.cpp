@@ -67,6 +67,38 @@ TEST_F(ExcerptSession, OfSeveralPeopleThoseWhoAreThereAreToldOf) {
   for (const int person : people) EXPECT_EQ(person, 1) << "one is there";
 }
 
+// Statures of the body in the first and in the last frame of the bundled walk, by a man of 1.80 m, and the length of an
+// upper leg in the first.
+struct WalkBodies {
+  double first_m = 0, last_m = 0, upper_leg_m = 0;
+};
+WalkBodies bodiesOfWalk(int passes) {
+  SessionOptions o = options();
+  o.passes = passes;
+  Session session(Recording(bundledRecording("walk")), o);
+  WalkBodies bodies;
+  session.run([&](const TrackedFrame& frame) {
+    if (bodies.first_m == 0) {
+      bodies.first_m = frame.stature_m;
+      bodies.upper_leg_m = frame.lengths.upper_leg;
+    }
+    bodies.last_m = frame.stature_m;
+  });
+  return bodies;
+}
+
+TEST(Passes, TwoGiveTheFirstFrameTheBodyThatTheFirstSecondsShow) {
+  const WalkBodies bodies = bodiesOfWalk(2);
+  EXPECT_EQ(bodies.first_m, bodies.last_m);
+  EXPECT_NEAR(bodies.first_m, 1.80, 0.04);
+}
+
+TEST(Passes, OneFitsTheBodyWhileTracking) {
+  const WalkBodies bodies = bodiesOfWalk(1);
+  EXPECT_NE(bodies.first_m, bodies.last_m);
+  EXPECT_NEAR(bodies.last_m, 1.80, 0.04);
+}
+
 TEST_F(ExcerptSession, AGivenActorKeepsItsSize) {
   SessionOptions o = options();
   o.actor = averageActor(1.60);
@@ -111,6 +143,9 @@ TEST_F(ExcerptSession, RefusesOptionsOutOfRange) {
   SessionOptions ahead = options();
   ahead.look_ahead_s = -1;
   EXPECT_THROW(Session(Recording(recording()), ahead), Error);
+  SessionOptions passes = options();
+  passes.passes = 3;
+  EXPECT_THROW(Session(Recording(recording()), passes), Error);
 }
 
 TEST(JointsCsv, LeavesALostFrameWithoutCoordinates) {
