@@ -24,7 +24,7 @@ std::unique_ptr<Film> openFilm(const std::filesystem::path& path, double fps, in
 
 // Of the module: null where the file cannot be written.
 inline constexpr const char* kFilmModule = "film.so";
-inline constexpr const char* kFilmEntry = "depthmocap_open_film";
+inline constexpr const char* kFilmEntry = "openFilmModule";
 using FilmEntry = Film* (*)(const char* path, double fps, int width, int height);
 
 }  // namespace depthmocap

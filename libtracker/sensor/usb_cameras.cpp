@@ -135,7 +135,7 @@ std::vector<UsbCamera> findUsbCameras(const fs::path& devices, const fs::path& n
     UsbCamera camera;
     const std::string told = lineOf(device / "product");
     camera.name = known->product.empty() && !told.empty() ? fmt::format("{} ({})", known->name, told) : known->name;
-    camera.id = vendor + ":" + product;
+    camera.id = fmt::format("{}:{}", vendor, product);
     const int bus = numberIn(device / "busnum");
     const int number = numberIn(device / "devnum");
     camera.place = fmt::format("bus {} device {}", bus, number);
