@@ -22,6 +22,10 @@ constexpr double kMostFrames = 60;
 // makes limbs ever thicker (girths of 1.3 to 1.4 times the true ones with the noise of Kinect v1, right without).
 constexpr double kOutlineWorth = 20;
 
+// Nobody is believed to differ by more from what is typical, whatever the frames say.
+constexpr double kLeastOfTypical = 0.6;
+constexpr double kMostOfTypical = 1.6;
+
 constexpr double kLeastCurvature = 1e-6;  // of a DoF that nothing holds
 
 using ShapePose = Eigen::Matrix<double, kShapeCount, kDofCount>;
@@ -106,7 +110,9 @@ void ShapeFit::observe(const ShapeEvidence& frame) {
 ShapeVector ShapeFit::best(double stature_m) const {
   const ShapeVector mean = typical(stature_m);
   const ShapeMatrix prior = typicalInformation(mean);
-  return Eigen::LDLT<ShapeMatrix>(sum_.A + prior).solve(sum_.b + prior * mean);
+  const ShapeVector found = Eigen::LDLT<ShapeMatrix>(sum_.A + prior).solve(sum_.b + prior * mean);
+  if (!found.allFinite()) return mean;
+  return found.cwiseMax(kLeastOfTypical * mean).cwiseMin(kMostOfTypical * mean);
 }
 
 ShapeVector ShapeFit::deviation(double stature_m) const {

@@ -1,5 +1,6 @@
 #include "libtracker/shape/shape_fit.h"
 
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -92,6 +93,18 @@ TEST(ShapeFit, WithoutFramesIsWhatIsTypical) {
   EXPECT_TRUE(fit.empty());
   EXPECT_TRUE(fit.best(1.6).isApprox(ShapeFit::typical(1.6), 1e-9));
   EXPECT_NEAR(statureOf(boneLengths(ShapeFit::typical(1.6))), 1.6, 1e-9);
+}
+
+TEST(ShapeFit, BelievesNoBodyThatNobodyHas) {
+  ShapeFit fit;
+  ShapeEvidence wrong;
+  wrong.A.diagonal().setConstant(1e9);
+  wrong.b = wrong.A * (10.0 * ShapeFit::typical(kStature_m));
+  fit.observe(wrong);
+  EXPECT_TRUE(fit.best(kStature_m).isApprox(1.6 * ShapeFit::typical(kStature_m), 1e-6));
+  wrong.b.setConstant(std::numeric_limits<double>::quiet_NaN());
+  fit.observe(wrong);
+  EXPECT_TRUE(fit.best(kStature_m).isApprox(ShapeFit::typical(kStature_m), 1e-6));
 }
 
 TEST(ShapeFit, FramesMakeEntriesSurer) {
