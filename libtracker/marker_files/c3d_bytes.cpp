@@ -1,26 +1,17 @@
 #include "libtracker/marker_files/c3d_bytes.h"
 
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/read_file.h"
 
 namespace depthmocap {
 
-C3dBytes::C3dBytes(const std::filesystem::path& path) : where_(path.string()) {
-  if (std::filesystem::is_directory(path)) fail("is a folder, not a file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));
-  std::string block(std::size_t{1} << 20U, '\0');
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0) {
-    bytes_.append(block, 0, static_cast<std::size_t>(file.gcount()));
-    if (bytes_.size() > kMaxBytes) fail(fmt::format("is larger than {} bytes", kMaxBytes));
-  }
-}
+C3dBytes::C3dBytes(const std::filesystem::path& path)
+    : bytes_(readFile(path, "the C3D file", kMaxBytes)), where_(path.string()) {}
 
 void C3dBytes::fail(const std::string& what) const {
   throw Error(what, where_);

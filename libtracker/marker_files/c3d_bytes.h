@@ -29,8 +29,8 @@ class C3dBytes {
  private:
   void require(std::size_t at, std::size_t size) const;
 
-  std::string where_;
   std::string bytes_;
+  std::string where_;
 };
 
 }  // namespace depthmocap

@@ -16,7 +16,7 @@ COMMANDS = {
     "live": Command("recording", "live --source replay:in/rec --speed 0 --pose out.csv --gltf out.glb --threads 1"),
     "record": Command("recording", "record --source replay:in/rec --speed 0 --out out_rec"),
     "oni": Command("oni", "record --source replay:in/a.oni --speed 0 --out out_rec"),
-    "calibrate": Command("recording", "calibrate in/rec --any-pose --out out.json --threads 1"),
+    "calibrate": Command("poses", "calibrate in/rec --any-pose --frames 4 --out out.json --threads 1"),
     "evaluate": Command("recording", "evaluate --joints in/rec/truth/joints.csv --truth in/rec"),
     "ik": Command("ik", "ik --targets in/t.csv --priors in/priors.bin --actor in/actor.json --prior ppca --out out.csv"),
     "picture": Command("picture", "ik --targets in/t.csv --projection pinhole --camera in/c.json --out out.csv"),

@@ -76,14 +76,15 @@ def made(name):
         return out.read_bytes()
 
 
-def recording(folder):
-    source = ROOT / "recordings/walk"
+def recording(folder, name="walk", kept=range(FRAMES)):
+    """The frames of these numbers."""
+    source = ROOT / "recordings" / name
     late = re.compile(r"\d+\.png")
-    shutil.copytree(source, folder, ignore=lambda _, names: [n for n in names if late.fullmatch(n) and int(n[:-4]) >= FRAMES])
+    shutil.copytree(source, folder, ignore=lambda _, names: [n for n in names if late.fullmatch(n) and int(n[:-4]) not in kept])
     for table in ["frames.csv", "truth/joints.csv", "truth/pose.csv"]:
         if (folder / table).exists():
             lines = (folder / table).read_text().splitlines(keepends=True)
-            rows = [l for l in lines if not re.match(r"\d", l) or int(l.split(",")[0]) < FRAMES]
+            rows = [l for l in lines if not re.match(r"\d", l) or int(l.split(",")[0]) in kept]
             (folder / table).write_text("".join(rows))
 
 
@@ -98,6 +99,8 @@ def make_input(kind, folder):
     folder.mkdir()
     if kind == "recording":
         recording(folder / "rec")
+    elif kind == "poses":  # that differ
+        recording(folder / "rec", "walk", range(0, 120, 6))
     elif kind == "tum":
         tum(folder / "rec")
     elif kind == "settings":
