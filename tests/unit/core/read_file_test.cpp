@@ -21,7 +21,8 @@ TEST(ReadFile, ReadsTheWholeFileAndNoMore) {
 // Its size is said to be 0, as of pipes; it never ends.
 TEST(ReadFile, RefusesADeviceThatNeverEnds) {
   EXPECT_NE(errorOf([] { readFile("/dev/zero", "the list", mebibytes(3)); }).find("larger"), std::string::npos);
-  EXPECT_NE(errorOf([] { readFile("/dev/zero", "the list", mebibytes(512)); }).find("it is no file"), std::string::npos);
+  EXPECT_NE(errorOf([] { readFile("/dev/zero", "the list", mebibytes(512)); }).find("it is no file"),
+            std::string::npos);
 }
 
 TEST(ReadFile, SaysWhyItCannot) {
