@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "depthmocap/world_frame.h"
+#include "libtracker/core/lost_outline.h"
 
 namespace depthmocap {
 namespace {
@@ -16,8 +17,6 @@ constexpr double kHeadReach_m = 0.10;         // from the head's marker to the s
 constexpr double kHandReach_m = 0.12;         // from the arm's marker up and down
 constexpr double kFootReach_m = 0.16;         // from the leg's marker to the sides
 constexpr int kFewestInLine = 2;              // [px] in a row or column of the mask: less is a stray pixel
-// [px] of 640 that the outline of a noisy depth image lies inside the true one, on average over both sensors.
-constexpr double kLostOutline_px = 0.8;
 
 int bestPart(const CloudPoint& point) {
   return static_cast<int>(std::max_element(point.probability.begin(), point.probability.end()) -
@@ -158,7 +157,7 @@ int firstFull(int from, int step, int size, Count&& count) {
 std::vector<BodyEnd> tposeEnds(const MaskImage& mask, const CameraModel& camera, const MarkerSet& markers,
                                const Eigen::Vector4d* floor_world) {
   const Eigen::Matrix3d R_world_camera = uprightWorldFromCamera();
-  const double lost = kLostOutline_px * camera.width / 640.0;
+  const double lost = lostOutline_px(camera);
   std::vector<BodyEnd> ends;
   const auto pixelOf = [&](Part part) {
     return camera.project(R_world_camera.transpose() * markers.position.col(partIndex(part)));

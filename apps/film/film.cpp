@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/shipped_files.h"
 
 namespace depthmocap {
 namespace {
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 // lib/depthmocap beside the program (build tree), and where the installation puts modules.
 fs::path modulePath() {
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path program = programFolder();
   const fs::path above = program.parent_path();
   const std::array<fs::path, 3> folders = {program / "lib" / "depthmocap", above / "lib" / "depthmocap",
                                            above / DEPTHMOCAP_MODULES};

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <string>
-#include <system_error>
 
 #include <unistd.h>
 
 #include "depthmocap/error.h"
+#include "libtracker/core/shipped_files.h"
 
 namespace depthmocap {
 
@@ -19,9 +18,7 @@ bool isLearningCommand(std::string_view name) {
 }
 
 void becomeLearningProgram(char** argv) {
-  std::error_code ignored;
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const std::string path = own.parent_path() / kLearningProgram;
+  const std::string path = programFolder() / kLearningProgram;
   execv(path.c_str(), argv);
   throw Error(std::string("cannot be started: ") + std::strerror(errno), path,
               "this command is part of it; it lies beside depthmocap where all was built or installed");

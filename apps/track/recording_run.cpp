@@ -8,7 +8,6 @@ namespace {
 ReplaySessionOptions sessionOptions(const ReplayOptions& options) {
   ReplaySessionOptions session = options.session;
   session.smooth = options.track.smooth;
-  session.fit_bodies = options.passes == 2;
   session.name = options.recording.string();
   return session;
 }

@@ -18,7 +18,6 @@ struct ReplayOptions {
   CorrectionChoice correction;
   TrackOptions track;
   ReplaySessionOptions session;
-  int passes = 2;  // over the first seconds of people whose bodies were not measured
 };
 
 // What tracking one recording needs, in the order in which it has to come up. The options and models outlive it.

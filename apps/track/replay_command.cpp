@@ -124,7 +124,7 @@ void addReplayCommand(CLI::App& app) {
       ->group("Outputs");
   addLookAheadOption(*command, options->session.look_ahead_s);
   command
-      ->add_option("--passes", options->passes,
+      ->add_option("--passes", options->session.passes,
                    "2: the bodies of people without --actor are fitted over the first seconds, then all is tracked; 1: "
                    "they are fitted while tracking, as live does")
       ->check(CLI::Range(1, 2))

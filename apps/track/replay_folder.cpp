@@ -53,7 +53,7 @@ nlohmann::json optionsThatMatter(const ReplayOptions& o) {
           {"stature", t.assumed_stature_m},
           {"smooth", t.smooth},
           {"look_ahead", o.session.look_ahead_s},
-          {"passes", o.passes},
+          {"passes", o.session.passes},
           {"first", o.session.first_frame},
           {"last", o.session.last_frame},
           {"camera", o.correction.camera_file.string()},

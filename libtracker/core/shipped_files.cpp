@@ -16,11 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path programFolder() {
-  std::error_code ignored;
-  return fs::read_symlink("/proc/self/exe", ignored).parent_path();
-}
-
 // The folder of the shared library that holds this function; empty where the program itself holds it.
 fs::path libraryFolder() {
   Dl_info info{};
@@ -44,6 +39,11 @@ void addFoldersNear(const fs::path& folder, std::vector<fs::path>& folders) {
 }
 
 }  // namespace
+
+fs::path programFolder() {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+}
 
 fs::path shippedFile(const std::string& name) {
   std::vector<fs::path> folders;

@@ -9,4 +9,7 @@ namespace depthmocap {
 // where it was looked for.
 std::filesystem::path shippedFile(const std::string& name);
 
+// Where the program that runs lies; empty where the system does not tell.
+std::filesystem::path programFolder();
+
 }  // namespace depthmocap

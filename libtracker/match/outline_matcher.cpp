@@ -6,15 +6,14 @@
 #include <cstdint>
 #include <cstring>
 
+#include "libtracker/core/lost_outline.h"
 #include "libtracker/match/lorentzian_weight.h"
 
 namespace depthmocap {
 namespace {
 
-constexpr int kReach_px = 3;        // half the window that tells the outline's direction
-constexpr float kBehind_m = 0.10F;  // what is beside the outline is at least this much further away
-// [px] of 640 that the outline of a depth image lies inside the true one: measured for calibrations, see there.
-constexpr float kLost_px = 0.8F;
+constexpr int kReach_px = 3;          // half the window that tells the outline's direction
+constexpr float kBehind_m = 0.10F;    // what is beside the outline is at least this much further away
 constexpr float kRimCosine = 0.25F;   // between normal and line of sight, of a point that is on the rim
 constexpr float kSameSide = 0.7F;     // least cosine between the directions of outline and rim
 constexpr float kMaxDepth_m = 0.20F;  // between both
@@ -74,7 +73,7 @@ void OutlineMatcher::observe(const DepthImage& depth, const MaskImage& mask, con
                              const Eigen::Matrix3d& R_world_camera) {
   camera_ = camera;
   R_world_camera_ = R_world_camera;
-  const float lost = kLost_px * static_cast<float>(camera.width) / 640.0F;
+  const auto lost = static_cast<float>(lostOutline_px(camera));
   found_.clear();
   outline_.clear();
   if (config_.max_matches == 0) return;

@@ -25,6 +25,8 @@ struct PngSize {
 PngSize png16Size(const std::filesystem::path& path);
 
 void writePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image);
+void writePng8(const std::filesystem::path& path, const Image<std::uint8_t>& image);
+
 // A picture of 8 bits a channel to look at, as the bytes of a PNG file. Throws Error where it cannot be encoded.
 struct Picture {
   const std::uint8_t* pixels = nullptr;
@@ -33,7 +35,5 @@ struct Picture {
   std::size_t row_bytes = 0;  // from one row to the next
 };
 std::string pngBytes(const Picture& picture);
-
-void writePng8(const std::filesystem::path& path, const Image<std::uint8_t>& image);
 
 }  // namespace depthmocap

@@ -21,17 +21,16 @@ struct Kind {
   const char* use;
   const char* driver_in_the_way;  // of the kernel; null: none
   bool needs_usb3;
-  bool by_file;  // the device file of USB is opened, which needs the right to write to it
 };
-constexpr Kind kOpenNi{"--source openni2", nullptr, false, true};
+constexpr Kind kOpenNi{"--source openni2", nullptr, false};
 constexpr Kind kKinect1{"--source openni2 with libfreenect's driver for OpenNI2, or --source v4l2:/dev/videoN",
-                        "gspca_kinect", false, true};
-constexpr Kind kKinect2{"python3 kinect2.py | depthmocap live --source pipe:-", nullptr, true, true};
-constexpr Kind kAzure{"python3 azure_kinect.py | depthmocap live --source pipe:-", nullptr, true, true};
+                        "gspca_kinect", false};
+constexpr Kind kKinect2{"python3 kinect2.py | depthmocap live --source pipe:-", nullptr, true};
+constexpr Kind kAzure{"python3 azure_kinect.py | depthmocap live --source pipe:-", nullptr, true};
 constexpr Kind kOrbbec{"python3 orbbec.py | depthmocap live --source pipe:-, older ones --source openni2", nullptr,
-                       false, true};
+                       false};
 constexpr Kind kRealSense{"python3 realsense.py | depthmocap live --source pipe:-, or --source v4l2:/dev/videoN",
-                          nullptr, true, true};
+                          nullptr, true};
 
 struct Known {
   std::string_view vendor;
@@ -107,8 +106,8 @@ std::vector<std::string> mendsOf(const fs::path& device, const fs::path& node, c
     mends.push_back(
         fmt::format("the kernel's {0} holds it, so that OpenNI2 cannot: sudo modprobe -r {0}", kind.driver_in_the_way));
   }
-  std::error_code ignored;
-  if (kind.by_file && fs::exists(node, ignored) && access(node.c_str(), W_OK) != 0) {
+  std::error_code ignored;  // libraries of cameras open the device's file
+  if (fs::exists(node, ignored) && access(node.c_str(), W_OK) != 0) {
     mends.push_back(
         fmt::format("you may not write to {}: echo 'SUBSYSTEM==\"usb\", ATTR{{idVendor}}==\"{}\", MODE=\"0666\"' | "
                     "sudo tee /etc/udev/rules.d/60-depthmocap.rules, then plug it in anew",

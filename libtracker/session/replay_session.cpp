@@ -36,7 +36,7 @@ void ReplaySession::run(const ReplayHooks& hooks) {
 
 // The frames that were read for the bodies.
 std::size_t ReplaySession::fitFirst(const ReplayHooks& hooks) {
-  if (!options_.fit_bodies || !FittedBody::isWanted(tracker_)) return 0;
+  if (options_.passes < 2 || !FittedBody::isWanted(tracker_)) return 0;
   std::size_t read = 0;
   const auto progress = [&](std::size_t done, std::size_t total) {
     read = total;

@@ -14,7 +14,8 @@ namespace depthmocap {
 struct ReplaySessionOptions {
   double look_ahead_s = kLookAhead_s;  // [s] (0 .. 1) each pose is steadied by the frames this long before and after it
   double smooth = 0;                   // [0, 1] of the output filter; 0 = off
-  bool fit_bodies = true;  // bodies that were not measured are fitted over the first seconds, which are read twice
+  // 2: the first seconds are tracked before, to fit the bodies of people who were not measured (fitBodies); 1: not.
+  int passes = 2;
   std::int64_t first_frame = 0;  // by the recording's frame numbers
   std::int64_t last_frame = std::numeric_limits<std::int64_t>::max();
   std::size_t most_frames = std::numeric_limits<std::size_t>::max();

@@ -65,7 +65,7 @@ struct Session::Impl {
     ReplaySessionOptions o;
     o.look_ahead_s = options.look_ahead_s.value_or(kLookAhead_s);
     o.smooth = options.smooth;
-    o.fit_bodies = options.passes == 2;
+    o.passes = options.passes;
     ReplaySession session(*reader, tracker, o);
     session.addSink(sink);
     session.run({{}, options.warn, options.stopped});

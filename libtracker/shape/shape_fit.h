@@ -33,7 +33,7 @@ ShapeEvidence shapeEvidence(const ShapeVector& shape, const ForwardKinematics& f
 class ShapeFit {
  public:
   void observe(const ShapeEvidence& frame);
-  [[nodiscard]] bool empty() const { return frames_ == 0; }
+  [[nodiscard]] int frames() const { return frames_; }  // observed
   // Of a body of about this stature [m]; each entry within 0.6 to 1.6 times what is typical.
   [[nodiscard]] ShapeVector best(double stature_m) const;
   // How well each entry is known: standard deviations, [m] and girths.

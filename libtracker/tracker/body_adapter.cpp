@@ -25,7 +25,7 @@ BodyAdapter::BodyAdapter(const Actor& actor, bool calibrated, double size_s, dou
       shape_left_s_(calibrated ? 0.0 : shape_s) {}
 
 bool BodyAdapter::isFitted() const {
-  return shapes_ >= kFewestShapes;
+  return fit_.frames() >= kFewestShapes;
 }
 
 BodyAdapter BodyAdapter::fixed() const {
@@ -36,7 +36,7 @@ BodyAdapter BodyAdapter::fixed() const {
 
 void BodyAdapter::rescale(double scale) {
   stature_m_ = std::clamp(stature_m_ * scale, kMinStature_m, kMaxStature_m);
-  if (!fit_.empty()) return wear(fit_.best(stature_m_));
+  if (fit_.frames() > 0) return wear(fit_.best(stature_m_));
   shape_ = ShapeFit::typical(stature_m_);
   actor_ = averageActor(averageBoneLengths(stature_m_));
 }
@@ -53,7 +53,7 @@ void BodyAdapter::observeShape(const ShapeEvidence& frame, double dt_s) {
   if (!fitsShape()) return;
   shape_left_s_ -= dt_s;
   fit_.observe(frame);
-  if (++shapes_ % kShapePeriod == 0 || !fitsShape()) wear(fit_.best(stature_m_));
+  if (fit_.frames() % kShapePeriod == 0 || !fitsShape()) wear(fit_.best(stature_m_));
 }
 
 void BodyAdapter::wear(const ShapeVector& shape) {

@@ -38,7 +38,6 @@ class BodyAdapter {
   ShapeFit fit_;
   double size_left_s_, shape_left_s_;
   int sizes_ = 0;  // observed
-  int shapes_ = 0;
 };
 
 }  // namespace depthmocap

@@ -138,7 +138,7 @@ TEST_F(Sessions, AFrameThatCannotBeReadIsEmptyAndSaid) {
 
 TEST_F(Sessions, OnePassReadsEachFrameOnce) {
   MadeReader reader(4);
-  ReplaySession session(reader, tracker_, {.look_ahead_s = 0, .fit_bodies = false});
+  ReplaySession session(reader, tracker_, {.look_ahead_s = 0, .passes = 1});
   std::size_t total = 0;
   session.run({[&](std::size_t, std::size_t all) { total = all; }, {}, {}});
   EXPECT_EQ(total, 4U);

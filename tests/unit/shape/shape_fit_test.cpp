@@ -90,7 +90,7 @@ TEST(ShapeFit, FindsTheShapeFromFramesOfManyPoses) {
 
 TEST(ShapeFit, WithoutFramesIsWhatIsTypical) {
   const ShapeFit fit;
-  EXPECT_TRUE(fit.empty());
+  EXPECT_EQ(fit.frames(), 0);
   EXPECT_TRUE(fit.best(1.6).isApprox(ShapeFit::typical(1.6), 1e-9));
   EXPECT_NEAR(statureOf(boneLengths(ShapeFit::typical(1.6))), 1.6, 1e-9);
 }
