@@ -95,7 +95,9 @@ Sides sidesOf(const Scene& scene, const SurfaceMatches& matches) {
 
 TEST(OutlineMatcher, TouchesABodyOfTheRightWidthInTheRightPlace) {
   const Scene scene = sceneOf(0, 4.0F);
-  const Sides sides = sidesOf(scene, matchesOf(scene, post(kRadius_m)));
+  const SurfaceMatches matches = matchesOf(scene, post(kRadius_m));
+  for (const SurfaceMatch& match : matches) EXPECT_GT(match.weight, 0.9 * OutlineConfig{}.weight);
+  const Sides sides = sidesOf(scene, matches);
   EXPECT_GT(sides.count, 50);
   EXPECT_NEAR(sides.right, 0, 0.004);
   EXPECT_NEAR(sides.left, 0, 0.004);

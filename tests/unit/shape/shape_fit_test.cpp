@@ -1,5 +1,6 @@
 #include "libtracker/shape/shape_fit.h"
 
+#include <Eigen/Cholesky>
 #include <limits>
 #include <random>
 
@@ -127,6 +128,35 @@ TEST(ShapeEvidence, SaysNothingOfTheShapeWhereTheBodyWasMoved) {
   EXPECT_TRUE(still.A.isApprox(moved.A, 1e-9));
   // As sure of the same shape: what is left of the shift is the weak hold on the pose.
   EXPECT_LT((moved.b - still.b).norm(), 1e-3 * still.b.norm());
+}
+
+// What the shape alone changes by, the pose following: against differences of the points' places over shape and pose.
+TEST(ShapeEvidence, LeavesToThePoseWhatThePoseCanExplain) {
+  std::mt19937 random(4);
+  const ShapeVector shape = ShapeFit::typical(kStature_m);
+  const Pose q = somePose(random);
+  ForwardKinematics fk;
+  fk.update(makeSkeleton(boneLengths(shape)), q);
+  const SurfaceMatches matches = matchesOf(shape, shape, q, Eigen::Vector3d::Zero());
+  const auto rows = static_cast<Eigen::Index>(matches.size());
+  Eigen::MatrixXd J(rows, kShapeCount + kDofCount);
+  constexpr double kStep = 1e-5;
+  for (Eigen::Index c = 0; c < J.cols(); ++c) {
+    ShapeVector shape_c = shape;
+    Pose q_c = q;
+    (c < kShapeCount ? shape_c[c] : q_c[c - kShapeCount]) += kStep;
+    const SurfaceMatches moved = matchesOf(shape, shape_c, q_c, Eigen::Vector3d::Zero());
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const auto i = static_cast<std::size_t>(r);
+      J(r, c) = matches[i].n_world.dot(moved[i].p_world - matches[i].p_world) / kStep;
+    }
+  }
+  const Eigen::MatrixXd H = kScale * J.transpose() * J;
+  const Eigen::MatrixXd H_qs = H.bottomLeftCorner<kDofCount, kShapeCount>();
+  const Eigen::MatrixXd H_qq = H.bottomRightCorner<kDofCount, kDofCount>() + PoseMatrix::Identity();
+  const ShapeMatrix expected = H.topLeftCorner<kShapeCount, kShapeCount>() - H_qs.transpose() * H_qq.ldlt().solve(H_qs);
+  const ShapeMatrix found = shapeEvidence(shape, fk, {matches, {}}, kScale, poseEvidence(fk, matches)).A;
+  EXPECT_TRUE((found / found.trace()).isApprox(expected / expected.trace(), 1e-3));
 }
 
 TEST(ShapeEvidence, OfNoMatchesIsNothing) {
