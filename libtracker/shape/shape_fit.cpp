@@ -110,8 +110,8 @@ void ShapeFit::observe(const ShapeEvidence& frame) {
 ShapeVector ShapeFit::best(double stature_m) const {
   const ShapeVector mean = typical(stature_m);
   const ShapeMatrix prior = typicalInformation(mean);
-  const ShapeVector found = Eigen::LDLT<ShapeMatrix>(sum_.A + prior).solve(sum_.b + prior * mean);
-  if (!found.allFinite()) return mean;
+  ShapeVector found = Eigen::LDLT<ShapeMatrix>(sum_.A + prior).solve(sum_.b + prior * mean);
+  if (!found.allFinite()) found = mean;
   return found.cwiseMax(kLeastOfTypical * mean).cwiseMin(kMostOfTypical * mean);
 }
 
