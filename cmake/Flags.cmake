@@ -15,8 +15,11 @@ set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 target_compile_options(depthmocap_flags INTERFACE -fno-semantic-interposition)
 
-option(DEPTHMOCAP_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
-if(DEPTHMOCAP_SANITIZE)
+set(DEPTHMOCAP_SANITIZE "" CACHE STRING "Build with AddressSanitizer and UndefinedBehaviorSanitizer (memory), ThreadSanitizer (threads) or neither")
+if(DEPTHMOCAP_SANITIZE STREQUAL "threads")
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=thread)
+elseif(DEPTHMOCAP_SANITIZE STREQUAL "memory")
   # The checks left out double the time to compile Eigen's templates; AddressSanitizer finds bad pointers by itself.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr
                       -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -24,6 +27,8 @@ if(DEPTHMOCAP_SANITIZE)
   # Eigen changes its allocator under AddressSanitizer; PCL's library, which frees what our templates allocate, was built
   # without it.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
+elseif(DEPTHMOCAP_SANITIZE)
+  message(FATAL_ERROR "DEPTHMOCAP_SANITIZE is '${DEPTHMOCAP_SANITIZE}'; it must be memory, threads or empty")
 endif()
 
 option(DEPTHMOCAP_FUZZ "Build tests/fuzz as libFuzzer programs; needs clang" OFF)

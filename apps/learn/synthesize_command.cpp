@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/learn/other_option.h"
 #include "apps/program/learning.h"
 #include "apps/terminal/motion_options.h"
 #include "apps/terminal/progress.h"
@@ -57,9 +58,7 @@ struct SynthesizeOptions {
   double distance_m = StagingConfig{}.distance_m;
   double camera_height_m = StagingConfig{}.camera_height_m;
   double tilt_deg = 0;
-  std::string second_motion;
-  double second_distance_m = 3.5;
-  double second_yaw_deg = 90;
+  std::vector<std::string> others;
   std::int64_t first = 0;
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   std::uint64_t seed = 1;
@@ -154,33 +153,39 @@ SynthesisConfig configOf(const SynthesizeOptions& o) {
   return config;
 }
 
-// Walks through the whole of the own path, also where that leads out of the view. In the scene `bystander` he keeps
-// clear of the actor, has a body and, unless --second-person says so, a motion of his own, and is in the truth.
-Bystander bystanderOf(const SynthesizeOptions& o, const SynthesisConfig& config) {
-  constexpr double kEverywhere = 100.0;
+// In the scene `bystander` somebody keeps clear of the actor, whose body and motion are the seed's.
+OtherPerson bystanderOf(const SynthesizeOptions& o, const SynthesisConfig& config) {
   constexpr double kApart_m = 0.65;
   constexpr std::array<std::string_view, 4> kMotions = {"talk", "idle", "walk", "sit_and_talk"};
-  if (config.scene != SceneKind::Bystander) {
-    Bystander bystander{readMotion(o.second_motion, o), makeBuiltinBody(BodyShape{}), {}};
-    bystander.staging.yaw = o.second_yaw_deg * kDegree;
-    bystander.staging.distance_m = o.second_distance_m;
-    bystander.staging.half_view = kEverywhere;
-    bystander.staging.camera_height_m = o.camera_height_m;
-    return bystander;
-  }
   Random random(o.seed, 1);
   BodyShape shape;
   shape.sex = random.uniform() < 0.5 ? Sex::Female : Sex::Male;
   shape.stature_m = random.uniform(1.5, 1.9);
   shape.weight_kg = random.uniform(19, 29) * shape.stature_m * shape.stature_m;
   const std::string motion = std::string(kProcedural) + std::string(kMotions[random.below(kMotions.size())]);
-  Bystander bystander{readMotion(o.second_motion.empty() ? motion : o.second_motion, o), makeBuiltinBody(shape), {}};
-  bystander.staging = config.staging;
+  OtherPerson bystander{readMotion(motion, o), makeBuiltinBody(shape), config.staging};
   bystander.staging.yaw = random.uniform(-1.5, 1.5);
   bystander.staging.distance_m = std::max(1.0, o.distance_m + random.uniform(-0.4, 0.8));
-  bystander.in_truth = true;
   bystander.apart_m = kApart_m;
   return bystander;
+}
+
+std::vector<OtherPerson> othersOf(const SynthesizeOptions& o, const SynthesisConfig& config) {
+  std::vector<OtherPerson> others;
+  for (const std::string& text : o.others) {
+    const OtherOption option = parseOther(text);
+    // The whole of the own path is walked, also where that leads out of the view.
+    constexpr double kEverywhere = 100.0;
+    OtherPerson other{readMotion(option.motion, o), makeBuiltinBody(option.shape), config.staging};
+    cutMotion(other.clip, option.first, std::numeric_limits<std::int64_t>::max());
+    other.staging.yaw = option.yaw_deg * kDegree;
+    other.staging.distance_m = option.distance_m;
+    other.staging.half_view = kEverywhere;
+    other.aside_m = option.aside_m;
+    others.push_back(std::move(other));
+  }
+  if (others.empty() && config.scene == SceneKind::Bystander) others.push_back(bystanderOf(o, config));
+  return others;
 }
 
 std::string noteOf(const SynthesizeOptions& o, const MotionClip& clip) {
@@ -196,7 +201,7 @@ void synthesize(const SynthesizeOptions& o) {
   cutMotion(clip, o.first, o.last);
   config.note = noteOf(o, clip);
   const BodySurface body = makeBody(o);
-  if (!o.second_motion.empty() || config.scene == SceneKind::Bystander) config.bystander = bystanderOf(o, config);
+  config.others = othersOf(o, config);
   {
     const StopRequest on_ctrl_c;
     Progress progress("rendering", clip.poses.size());
@@ -257,14 +262,23 @@ void addViewOptions(CLI::App& command, SynthesizeOptions& o) {
       ->capture_default_str();
 }
 
-void addSecondPersonOptions(CLI::App& command, SynthesizeOptions& o) {
-  command.add_option("--second-person", o.second_motion, "Motion of somebody else in the view, as --motion")
-      ->type_name("FILE");
-  command.add_option("--second-distance", o.second_distance_m, "Camera to the middle of that one's path [m]")
-      ->check(CLI::Range(0.3, 10.0))
-      ->capture_default_str();
-  command.add_option("--second-yaw", o.second_yaw_deg, "That one's heading in the first frame [deg]")
-      ->capture_default_str();
+void addOthersOption(CLI::App& command, SynthesizeOptions& o) {
+  command
+      .add_option(
+          "--other", o.others,
+          "Somebody else in the view, up to five times: MOTION[,KEY=VALUE...] with distance and aside [m], yaw [deg], "
+          "height [m], weight [kg], sex (m or f), first (frame)")
+      ->type_name("OTHER")
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) {
+        try {
+          (void)parseOther(text);
+          return std::string();
+        } catch (const Error& error) {
+          return std::string(error.what());
+        }
+      })
+      ->expected(1, static_cast<int>(kMostOthers));
 }
 
 // Ends the command line there and then, as --help does: --motion and --out are not needed.
@@ -287,7 +301,7 @@ void addSynthesizeCommand(CLI::App& app) {
   command->add_option("--out", o.out, "Folder to write")->type_name("REC")->required();
   addBodyOptions(*command, o);
   addViewOptions(*command, o);
-  addSecondPersonOptions(*command, o);
+  addOthersOption(*command, o);
   command->add_option("--first", o.first, "First frame of the motion, from 0")->check(CLI::NonNegativeNumber);
   command->add_option("--last", o.last, "Last frame of the motion")->check(CLI::NonNegativeNumber);
   command->add_option("--seed", o.seed, "Seed of noise, room, clothes and procedural motion")->capture_default_str();

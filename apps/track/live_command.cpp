@@ -119,13 +119,13 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
     return run.trial.turnThatHelps(run.models, run.source->info().camera, trackerConfig(options.track),
                                    options.source.correction.turn_deg);
   };
-  std::cerr << summaryText(figures, run.session->stats(), run.seen, turn) << '\n';
   if (figures.received == 0) attempt([&] { throw Error("not one frame came", options.source.source); });
   if (figures.received > 0) attempt([&] { run.outputs.finish(); });
   run.session->stats().setLive(figures);
   if (!options.track.stats.empty())
     attempt([&] { run.session->stats().write(options.track.stats, wall_s, options.track.actor.empty()); });
   if (failure) std::rethrow_exception(failure);
+  std::cerr << summaryText(figures, run.session->stats(), run.seen, turn) << '\n';
 }
 
 void live(const LiveOptions& options) {

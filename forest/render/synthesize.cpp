@@ -2,8 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <deque>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -42,34 +41,39 @@ Eigen::Matrix3d tiltedCameraFromWorld(const SynthesisConfig& config) {
   return Eigen::AngleAxisd(config.camera_tilt, Eigen::Vector3d::UnitX()).toRotationMatrix() * uprightWorldFromCamera();
 }
 
+using PosesOfEach = std::vector<std::vector<Pose>>;
+
 // What stands and moves around the actor.
 class Surroundings {
  public:
-  Surroundings(TriangleMesh room, const SynthesisConfig& config, const std::vector<Pose>& bystander_poses)
-      : mesh_(std::move(room)), room_vertices_(mesh_.vertices.size()), poses_(bystander_poses) {
-    if (!config.bystander) return;
-    body_ = &config.bystander->body;
-    const auto first = static_cast<std::uint32_t>(room_vertices_);
-    for (const Triangle& t : body_->triangles) mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    if (!config.bystander->in_truth) return;
-    mesh_.part.resize(mesh_.triangles.size() - body_->triangles.size(), 0);
-    for (const std::uint8_t part : body_->part) mesh_.part.push_back(labelOf(part, 2));
+  Surroundings(TriangleMesh room, const SynthesisConfig& config, const PosesOfEach& poses)
+      : mesh_(std::move(room)), room_vertices_(mesh_.vertices.size()), others_(config.others), poses_(poses) {
+    if (!others_.empty()) mesh_.part.resize(mesh_.triangles.size(), 0);
+    auto first = static_cast<std::uint32_t>(room_vertices_);
+    for (std::size_t k = 0; k < others_.size(); ++k) {
+      const BodySurface& body = others_[k].body;
+      for (const Triangle& t : body.triangles) mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      for (const std::uint8_t part : body.part) mesh_.part.push_back(labelOf(part, personOf(k)));
+      first += static_cast<std::uint32_t>(body.vertices.size());
+    }
   }
+  static int personOf(std::size_t other) { return static_cast<int>(other) + 2; }
 
   // Valid until the next call.
   const TriangleMesh& at(std::size_t frame) {
-    if (body_ == nullptr) return mesh_;
-    poseSurface(*body_, poses_[std::min(frame, poses_.size() - 1)], vertices_);
     mesh_.vertices.resize(room_vertices_);
-    mesh_.vertices.insert(mesh_.vertices.end(), vertices_.begin(), vertices_.end());
+    for (std::size_t k = 0; k < others_.size(); ++k) {
+      poseSurface(others_[k].body, poses_[k][std::min(frame, poses_[k].size() - 1)], vertices_);
+      mesh_.vertices.insert(mesh_.vertices.end(), vertices_.begin(), vertices_.end());
+    }
     return mesh_;
   }
 
  private:
   TriangleMesh mesh_;
   std::size_t room_vertices_;
-  std::vector<Pose> poses_;
-  const BodySurface* body_ = nullptr;
+  const std::vector<OtherPerson>& others_;
+  const PosesOfEach& poses_;
   std::vector<Eigen::Vector3f> vertices_;
 };
 
@@ -127,12 +131,14 @@ JointsRow truthRow(const Skeleton& skeleton, const Pose& q, const SynthesisConfi
 }
 
 TriangleMesh sceneFor(const SynthesisConfig& config, const BodySurface& body, const StagedMotion& staged,
-                      const std::vector<Pose>& bystander) {
+                      const PosesOfEach& others) {
   if (config.scene == SceneKind::None) return {};
   if (config.scene == SceneKind::Room) {
     std::vector<Eigen::Vector3d> path;
     for (const Pose& q : staged.poses) path.emplace_back(q.head<3>());
-    for (const Pose& q : bystander) path.emplace_back(q.head<3>());
+    for (const std::vector<Pose>& poses : others) {
+      for (const Pose& q : poses) path.emplace_back(q.head<3>());
+    }
     return makeRoom(staged.floor_y, path, config.seed);
   }
   RoomPeople people;
@@ -140,34 +146,12 @@ TriangleMesh sceneFor(const SynthesisConfig& config, const BodySurface& body, co
   people.skeleton = &body.skeleton;
   people.distance_m = config.staging.distance_m;
   if (config.scene != SceneKind::Empty) people.actor = staged.poses;
-  if (config.bystander) people.others = bodyPoints(config.bystander->body.skeleton, bystander);
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    const std::vector<Eigen::Vector3d> points = bodyPoints(config.others[k].body.skeleton, others[k]);
+    people.others.insert(people.others.end(), points.begin(), points.end());
+  }
   Random random(config.seed, kRoomStream);
   return makeFurnishedRoom(config.scene, people, random);
-}
-
-// The other's poses, moved aside as far as the two do not meet.
-std::vector<Pose> stageBystander(const Bystander& other, const StagedMotion& actor) {
-  std::vector<Pose> poses = stageMotion(other.clip, other.body, other.staging).poses;
-  if (!(other.apart_m > 0)) return poses;
-  constexpr double kStep_m = 0.1;
-  constexpr int kSteps = 40;
-  const auto nearest = [&](double beside) {
-    double gap = 1e9;
-    for (std::size_t i = 0; i < actor.poses.size(); ++i) {
-      const Pose& q = poses[std::min(i, poses.size() - 1)];
-      gap = std::min(gap,
-                     std::hypot(q[kRootTx] + beside - actor.poses[i][kRootTx], q[kRootTz] - actor.poses[i][kRootTz]));
-    }
-    return gap;
-  };
-  for (int i = 0; i < kSteps; ++i) {  // to both sides in turn
-    const int steps = (i % 2 == 0 ? 1 : -1) * (1 + i / 2);
-    const double beside = kStep_m * steps;
-    if (nearest(beside) < other.apart_m) continue;
-    for (Pose& q : poses) q[kRootTx] += beside;
-    break;
-  }
-  return poses;
 }
 
 void makeLabelFolder(const fs::path& folder) {
@@ -186,7 +170,7 @@ RecordingInfo infoOf(const SynthesisConfig& config, double fps, double path_scal
   return info;
 }
 
-// The truth of one person: joints and poses. Files of a second one end in -2.
+// The truth of one person: joints and poses.
 class TruthFiles {
  public:
   TruthFiles(const fs::path& folder, const std::string& suffix, const Skeleton& skeleton, const SynthesisConfig& config)
@@ -221,19 +205,24 @@ class TruthFiles {
 
 void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const SynthesisConfig& config,
                          const fs::path& folder, const std::function<void(std::size_t)>& progress) {
+  if (config.others.size() > kMostOthers) {
+    throw Error(fmt::format("{} other people; at most {} are rendered", config.others.size(), kMostOthers),
+                folder.string());
+  }
   const StagedMotion staged = stageMotion(clip, body, config.staging);
-  std::vector<Pose> bystander;
-  if (config.bystander) bystander = stageBystander(*config.bystander, staged);
-  const Surroundings surroundings(sceneFor(config, body, staged, bystander), config, bystander);
+  PosesOfEach others;
+  for (const OtherPerson& other : config.others) others.push_back(stageOther(other, staged));
+  const Surroundings surroundings(sceneFor(config, body, staged, others), config, others);
   RecordingWriter recording(folder, infoOf(config, clip.fps, staged.path_scale),
                             RecordingWriter::Appears::WhenFinished);
   const fs::path truth_folder = recording.folder() / "truth";
   const fs::path labels = truth_folder / "labels";
   makeLabelFolder(labels);
   TruthFiles truth(truth_folder, "", body.skeleton, config);
-  std::optional<TruthFiles> second;
-  if (config.bystander && config.bystander->in_truth) {
-    second.emplace(truth_folder, "-2", config.bystander->body.skeleton, config);
+  std::deque<TruthFiles> truth_of_others;
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    const std::string suffix = fmt::format("-{}", Surroundings::personOf(k));
+    truth_of_others.emplace_back(truth_folder, suffix, config.others[k].body.skeleton, config);
   }
 
   const auto workers = static_cast<std::size_t>(config.threads);
@@ -261,12 +250,14 @@ void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const 
       } else {
         truth.write(staged.poses[first + slot], frame);
       }
-      if (second) second->write(bystander[std::min(first + slot, bystander.size() - 1)], frame);
+      for (std::size_t k = 0; k < others.size(); ++k) {
+        truth_of_others[k].write(others[k][std::min(first + slot, others[k].size() - 1)], frame);
+      }
     }
     if (progress) progress(first + here);
   }
   truth.finish();
-  if (second) second->finish();
+  for (TruthFiles& files : truth_of_others) files.finish();
   recording.finish();
 }
 

@@ -2,25 +2,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
+#include <vector>
 
+#include "forest/render/other_person.h"
 #include "forest/render/scene_kind.h"
 #include "forest/render/sensor_model.h"
 #include "forest/render/staging.h"
 
 namespace depthmocap {
 
-// Somebody else in the view.
-struct Bystander {
-  MotionClip clip;  // played once from the first frame on; the last pose stays
-  BodySurface body;
-  StagingConfig staging;
-  // Person 2 of the truth: labels are part + 16, and truth/joints-2.csv and truth/pose-2.csv are written.
-  bool in_truth = false;
-  // [m] moved aside until the pelvises stay this far apart, 0 = not moved.
-  double apart_m = 0;
-};
+inline constexpr std::size_t kMostOthers = 5;  // labels of six people: as many as are tracked
 
 // How a motion becomes a recording.
 struct SynthesisConfig {
@@ -29,17 +21,18 @@ struct SynthesisConfig {
   bool noise = true;
   SceneKind scene = SceneKind::None;
   StagingConfig staging;
-  double camera_tilt = 0;  // [rad] down
-  std::optional<Bystander> bystander;
-  std::uint64_t seed = 1;  // of noise and scene
-  int threads = 1;         // (>= 1) the result does not depend on it
-  std::string note;        // for recording.json
+  double camera_tilt = 0;           // [rad] down
+  std::vector<OtherPerson> others;  // at most kMostOthers
+  std::uint64_t seed = 1;           // of noise and scene
+  int threads = 1;                  // (>= 1) the result does not depend on it
+  std::string note;                 // for recording.json
 };
 
 // Renders a clip as a recording with truth: depth/, truth/joints.csv (confidence 1 where the joint lies inside the
 // image, else 0), truth/pose.csv (the upright world, the camera at its origin), truth/labels/%06d.png (parts of what
-// each pixel measured). SceneKind::Empty: nobody is there, joints are lost, pose.csv has no rows. Frames count from 0.
-// `progress` is called with the number of finished frames. Throws Error where the folder exists or cannot be written.
+// each pixel measured). The files of the others end in -2, -3 and so on, their labels are part + 16 * (person - 1).
+// SceneKind::Empty: the actor is not there, joints are lost, pose.csv has no rows. Frames count from 0. `progress` is
+// called with the number of finished frames. Throws Error where the folder exists or cannot be written.
 void synthesizeRecording(const MotionClip& clip, const BodySurface& body, const SynthesisConfig& config,
                          const std::filesystem::path& folder, const std::function<void(std::size_t)>& progress = {});
 

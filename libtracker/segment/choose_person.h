@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libtracker/core/room_map.h"
@@ -31,6 +32,8 @@ struct WantedPerson {
   const ExpectedActor* expected = nullptr;  // null = anybody
   float usual_score = 0;                    // in the frames before
   float usual_area_m2 = 0;
+  // Others who are out of view: what lies nearer to where one of them is expected is left to that one.
+  std::span<const ExpectedActor* const> missing = {};
 };
 
 // Which component is the actor.

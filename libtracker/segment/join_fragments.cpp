@@ -36,6 +36,9 @@ constexpr float kMinPieceArea_m2 = 0.0012F;
 constexpr float kOwnPersonHeight_m = 0.8F;
 // [m^2] A larger piece beside the actor may be another person: both legs of a tall adult, from the front.
 constexpr float kOwnPersonArea_m2 = 0.3F;
+// [m] Widest gap to a taller piece that was the actor's in the frame before: a pole that stands before somebody is
+// narrower.
+constexpr float kPoleGap_m = 0.25F;
 // [points] About so many of each piece are compared for gaps; more take time.
 constexpr std::size_t kSamples = 250;
 // [cells] Silhouettes this near in the image touch.
@@ -48,11 +51,17 @@ bool isLarge(const Component& piece) {
   return piece.area_m2 >= kHandArea_m2;
 }
 
-// A piece that is known to be somebody else's, or stands beside the actor and is large enough for it.
-bool isOwnPerson(const Component& piece, const Component& body, Identity who) {
-  if (piece.who != kUnknown) return piece.who != who;
+// Tall, and at the actor's height.
+bool standsBeside(const Component& piece, const Component& body) {
   const float overlap = std::min(piece.top_m, body.top_m) - std::max(piece.bottom_m, body.bottom_m);
-  return piece.height() > kOwnPersonHeight_m && piece.area_m2 > kOwnPersonArea_m2 && overlap > 0.5F * piece.height();
+  return piece.height() > kOwnPersonHeight_m && overlap > 0.5F * piece.height();
+}
+
+// A piece that is known to be somebody else's, or stands beside the actor and is large enough for it: then it is, also
+// if it was the actor's in the frame before, in which both were one piece.
+bool isOwnPerson(const Component& piece, const Component& body, Identity who) {
+  if (piece.who != kUnknown && piece.who != who) return true;
+  return standsBeside(piece, body) && piece.area_m2 > kOwnPersonArea_m2;
 }
 
 // Lower bound of the distance between two components [m].
@@ -113,7 +122,7 @@ bool FragmentJoiner::Search::comesOutFromBehind(std::size_t piece) const {
 
 float FragmentJoiner::Search::reachOf(std::size_t piece) const {
   const Component& c = components[piece];
-  if (c.who == who) return kArmReach_m;
+  if (c.who == who) return standsBeside(c, body) ? kPoleGap_m : kArmReach_m;
   if (company) return kRoomGap_m;
   if (cut_out) return isLarge(c) ? kLimbGap_m : kArmReach_m;
   // In a room, what lies low before the body is a thing on the floor, what stands apart behind it is the room, and what

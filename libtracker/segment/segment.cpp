@@ -12,6 +12,7 @@
 #include "libtracker/segment/choose_person.h"
 #include "libtracker/segment/coarse_cloud.h"
 #include "libtracker/segment/components.h"
+#include "libtracker/segment/contest.h"
 #include "libtracker/segment/find_floor.h"
 #include "libtracker/segment/hidden_part.h"
 #include "libtracker/segment/identity.h"
@@ -122,7 +123,8 @@ struct Segmenter::Impl {
   IdentityMemory memory;
   std::vector<Identity> known;  // one per cell
   std::vector<Followed> people;
-  std::vector<Choice> choices;  // one per person
+  std::vector<Choice> choices;                // one per person
+  std::vector<const ExpectedActor*> missing;  // people who are out of view for the most part
 
   [[nodiscard]] Eigen::Vector3f upwards() const {
     return floor ? Eigen::Vector3f(floor->plane.head<3>()) : Eigen::Vector3f(0, -1, 0);
@@ -134,6 +136,7 @@ struct Segmenter::Impl {
   void findComponents(const DepthImage& depth, const RoomLook& look);
   bool findCutOut(const RoomLook& look);
   void weighComponents();
+  void findMissing(const ExpectedPeople& expected, std::size_t but);
   Choice choose(const ExpectedActor* expected, Identity who);
   void take(const Choice& choice, Identity who);
   void seeHowMuch(Followed& person, PersonRegion& region) const;
@@ -175,6 +178,7 @@ void Segmenter::Impl::recallPeople(const ExpectedPeople& expected) {
   }
   if (!anybody_known) memory.forgetAll();
   memory.recall(cloud, known);
+  settleContest(cloud, expected, known);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (expected[i] && !people[i].plain && expected[i]->unseen_s <= kSurelyThere_s) {
       recallHidden(*expected[i], static_cast<Identity>(i + 1));
@@ -241,10 +245,19 @@ void Segmenter::Impl::weighComponents() {
   }
 }
 
+// The others who were hidden in the frame before and are not found yet in this one.
+void Segmenter::Impl::findMissing(const ExpectedPeople& expected, std::size_t but) {
+  missing.clear();
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const bool is_hidden = expected[i] && !std::isinf(expected[i]->unseen_s) && !people[i].plain;
+    if (i != but && is_hidden && choices[i].person == kNoComponent) missing.push_back(&*expected[i]);
+  }
+}
+
 Choice Segmenter::Impl::choose(const ExpectedActor* expected, Identity who) {
   Followed& person = people[who - 1U];
-  const Choice choice =
-      choosePerson(finder.components(), scores, owners, {who, expected, person.usual_score, person.usual_area_m2});
+  const Choice choice = choosePerson(finder.components(), scores, owners,
+                                     {who, expected, person.usual_score, person.usual_area_m2, missing});
   if (choice.person == kNoComponent) return choice;
   const bool is_known = finder.components()[static_cast<std::size_t>(choice.person)].who == who;
   person.usual_score = is_known ? person.usual_score + kUsualRate * (choice.score - person.usual_score) : choice.score;
@@ -333,6 +346,7 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, cons
     for (std::size_t i = 0; i < expected.size(); ++i) {
       if (expected[i].has_value() == anybody) continue;
       const auto who = static_cast<Identity>(i + 1);
+      s.findMissing(expected, i);
       PersonRegion& region = out.people[i];
       region.in_room = !s.cut_out;
       s.choices[i] = s.choose(expected[i] ? &*expected[i] : nullptr, who);

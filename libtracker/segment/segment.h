@@ -7,6 +7,7 @@
 
 #include "depthmocap/camera_model.h"
 #include "depthmocap/image.h"
+#include "depthmocap/joints.h"
 #include "libtracker/core/config_fields.h"
 #include "libtracker/core/room_map.h"
 
@@ -30,6 +31,7 @@ struct ExpectedActor {
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  // [m] middle of the trunk
   double unseen_s =
       0;  // [s] (>= 0) since the person was last seen; infinite: has not been seen, somebody near is meant
+  std::optional<JointPositions> joints_camera = {};  // [m] of the pose that is expected; none: not known
 };
 
 // Who is expected in an image: one entry for each person that is followed, none for one who may be anybody.

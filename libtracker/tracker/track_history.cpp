@@ -29,7 +29,7 @@ Pose TrackHistory::prev2(double time_s) const {
 void TrackHistory::accept(const Pose& q, double time_s, bool fresh) {
   const double dt = time_s - evidence_time_s_;  // q_prev is as old as the evidence for it
   velocity_ = fresh || dt <= 0 ? Pose(Pose::Zero()) : Pose(difference(q, q_prev_) / dt);
-  walk_ = fresh ? Eigen::Vector3d::Zero() : Eigen::Vector3d(walk_ + kWalkRate * (velocity_.head<3>() - walk_));
+  if (!fresh) walk_ += kWalkRate * (velocity_.head<3>() - walk_);  // a search for the pose does not stop who walks
   q_prev_ = q;
   time_s_ = evidence_time_s_ = time_s;
   state_ = TrackState::Tracking;

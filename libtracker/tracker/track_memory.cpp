@@ -36,6 +36,10 @@ Prediction TrackMemory::predict(double time_s, const Eigen::Matrix3d& R_world_ca
     trunk_camera_ = prediction.markers_camera.position.col(partIndex(Part::Torso));
   }
   prediction.actor = expectedActor(time_s, R_world_camera);
+  if (prediction.actor && prediction.has_pose) {
+    const Eigen::Vector3d moved = prediction.actor->p_camera - trunk_camera_;
+    prediction.actor->joints_camera = prediction.joints_camera.colwise() + moved;
+  }
   return prediction;
 }
 

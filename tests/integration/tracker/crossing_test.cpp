@@ -34,11 +34,11 @@ class Crossing : public testing::Test {
   }
   // Walks through the picture from the actor's right (yaw > 0) or left.
   void walksPast(double distance_m, double yaw, int first, int count) {
-    Bystander other{motion("walk", first, count), makeBuiltinBody(BodyShape{Sex::Female, 1.68, 62}), {}};
+    OtherPerson other{motion("walk", first, count), makeBuiltinBody(BodyShape{Sex::Female, 1.68, 62}), {}};
     other.staging.yaw = yaw;
     other.staging.distance_m = distance_m;
     other.staging.half_view = kEverywhere;
-    config_.bystander.emplace(std::move(other));
+    config_.others.push_back(std::move(other));
   }
   void track(const MotionClip& clip) {
     synthesizeRecording(clip, makeBuiltinBody(BodyShape{}), config_, folder_ / "rec");
@@ -128,7 +128,7 @@ TEST_F(Crossing, WhoWalksAwayBehindSomebodyIsFoundWhereExpected) {
 
 TEST_F(Crossing, WhoLeavesThePictureAndComesBackIsTheActorStill) {
   walksPast(3.8, 0, 0, 1);
-  config_.bystander->clip = motion("idle", 0, 1);  // stands there all the time
+  config_.others.front().clip = motion("idle", 0, 1);  // stands there all the time
   config_.staging.yaw = kQuarter;
   config_.staging.half_view = kEverywhere;
   config_.staging.distance_m = 2.4;

@@ -118,6 +118,19 @@ TEST_P(Crossing, NobodyIsTakenForTheOther) {
 
 INSTANTIATE_TEST_SUITE_P(People, Crossing, testing::Values(-0.8, -0.5, 0.5, 0.8));
 
+// Who comes out from behind somebody, touching, is taken for a part of that one, until they are apart.
+TEST(People, WhoStepAsideFromSomebodyAreSomebodyElse) {
+  Crowd crowd(2);
+  crowd.next(kFeet, std::nullopt);
+  for (const double x : {0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75}) {
+    crowd.next(kFeet, kFeet + Eigen::Vector3d(x, 0, 0.05));
+  }
+  const Shares shares = crowd.next(kFeet, kFeet + Eigen::Vector3d(0.8, 0, 0.05));
+  EXPECT_GT(shares.of_first[0], 0.95 * shares.first_shown);
+  EXPECT_EQ(shares.of_second[0], 0);
+  EXPECT_GT(shares.of_second[1], 0.95 * shares.second_shown);
+}
+
 TEST(People, AFreePlaceIsForTheNext) {
   Crowd crowd(2);
   for (int i = 0; i < 3; ++i) crowd.next(kFeet, kFeet + Eigen::Vector3d(0.9, 0, 0.4));
