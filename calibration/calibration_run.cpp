@@ -52,7 +52,7 @@ CalibrationRun::OtherPoses CalibrationRun::track(const Frames& frames, const std
 Actor CalibrationRun::solveByTPose(const Frames& others) {
   Actor actor;
   solve_s_ = secondsOf([&] { actor = calibrator_.solve(); });
-  if (config_.tpose_only) return actor;
+  if (config_.tpose_only || calibrator_.hadCompany()) return actor;
   const OtherPoses found = track(others, asSeen(actor), 0);
   return found.observations.size() >= kFewestOthers ? calibrator_.solve(found.observations) : actor;
 }

@@ -32,7 +32,7 @@ namespace {
 
 // [markers] Least of the 15 that a good frame shows.
 constexpr int kFewestParts = 13;
-// Share of the actor's pixels: what has less is no second person.
+// Share of the plainest one's pixels: who has less does not count.
 constexpr double kRivalShare = 0.35;
 // Share of the frames with a T-pose: from here on two people are in view.
 constexpr double kTwoPeopleShare = 0.3;
@@ -53,6 +53,7 @@ constexpr std::size_t kFewestPoses = 4;
 constexpr double kAverageStature_m = 1.69;
 
 const TPoseVerdict kTwoPeople{TPoseFault::TwoPeople, "two people are in view: only one may be", 0};
+const TPoseVerdict kTwoTPoses{TPoseFault::TwoPeople, "two people stand in a T-pose: only one may", 0};
 
 // A good frame, kept until the solve.
 struct GoodFrame {
@@ -116,9 +117,10 @@ struct Calibrator::Impl {
   }
 
   TPoseVerdict judge(const DepthFrame& frame);
-  void segment(const DepthImage& depth, Segmenter& by, Segmentation& out);
-  bool secondPerson(const DepthFrame& frame);
-  void classifyScaled(const DepthImage& depth, double stature_m);
+  void segment(const DepthImage& depth);
+  void findPeople(const DepthImage& depth);
+  TPoseVerdict chooseActor();
+  void classifyScaled(const DepthImage& depth, const MaskImage& mask, double stature_m);
   MarkerSet findMarkers(double stature_m);
   void keep(GoodFrame good);
   [[nodiscard]] PoseObservation observationOf(const GoodFrame& good, const ShapeVector& shape) const;
@@ -141,7 +143,13 @@ struct Calibrator::Impl {
   MarkerFinder finder;
 
   Segmentation segmentation;
-  Segmentation rival;
+  struct Somebody {
+    const PersonRegion* region;  // in `segmentation`
+    BodyOutline outline;
+  };
+  std::vector<Somebody> people;        // of the frame, the plainest first
+  const Somebody* standing = nullptr;  // of them; null: nobody stands in a T-pose
+  bool had_company = false;            // in a good frame
   const std::unique_ptr<PartClassifier::Memory> tpose_memory;
   const std::unique_ptr<PartClassifier::Memory> general_memory;
   ClassifiedPixels pixels;
@@ -154,74 +162,78 @@ struct Calibrator::Impl {
 };
 
 TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
-  segment(frame.depth, segmenter, segmentation);
-  const std::vector<Eigen::Vector3f> points = actorPoints(frame.depth, segmentation.actor().mask, camera);
-  if (points.size() < kFewestPixels) return {TPoseFault::Nobody, "nobody is in view", 0};
+  segment(frame.depth);
+  findPeople(frame.depth);
+  if (people.empty()) return {TPoseFault::Nobody, "nobody is in view", 0};
   if (config.any_pose) {
     ++good_count;
-    return secondPerson(frame) ? kTwoPeople : TPoseVerdict{TPoseFault::None, {}, 0};
+    return people.size() > 1 ? kTwoPeople : TPoseVerdict{TPoseFault::None, {}, 0};
   }
-  GoodFrame candidate;
-  candidate.outline = measureOutline(points);
-  TPoseVerdict verdict = checkTPose(segmentation.actor().mask, candidate.outline, config.check);
+  TPoseVerdict verdict = chooseActor();
   if (!verdict.good()) return verdict;
+  GoodFrame candidate;
+  candidate.outline = standing->outline;
+  candidate.mask = standing->region->mask;
   const double stature = candidate.outline.height();
-  classifyScaled(frame.depth, stature);
+  classifyScaled(frame.depth, candidate.mask, stature);
   candidate.cloud = cloudOf(pixels, camera);
   if (findMarkers(stature).seenCount() < kFewestParts) {
     return {TPoseFault::PartsMissing, "not all body parts are recognised: stand freely, away from furniture", 0};
   }
-  if (secondPerson(frame)) return kTwoPeople;
-  models->general->classify(frame.depth, segmentation.actor().mask, camera, classify_config, *general_memory, pixels);
+  models->general->classify(frame.depth, candidate.mask, camera, classify_config, *general_memory, pixels);
   candidate.markers_world = findMarkers(stature);
   candidate.frame = frame;
-  candidate.mask = segmentation.actor().mask;
   candidate.deviation = verdict.deviation;
   if (segmentation.floor_camera) {
     Eigen::Vector4d floor = *segmentation.floor_camera;
     floor.head<3>() = R_world_camera * floor.head<3>();
     candidate.floor_world = floor;
   }
+  had_company |= people.size() > 1;
   keep(std::move(candidate));
   return verdict;
 }
 
-void Calibrator::Impl::segment(const DepthImage& depth, Segmenter& by, Segmentation& out) {
+// Whoever is there, the plainest first.
+void Calibrator::Impl::segment(const DepthImage& depth) {
   const SegmentConfig range;
   models->room->classify(depth, camera, range.min_depth_m, range.max_depth_m, config.threads, room_memory, map);
-  by.segment(
-      depth, camera, [this]() -> const RoomMap& { return map; }, {std::nullopt}, out);
+  segmenter.segment(
+      depth, camera, [this]() -> const RoomMap& { return map; }, ExpectedPeople(kMostPeople), segmentation);
 }
 
-// A person is left when the actor is taken out of the picture.
-bool Calibrator::Impl::secondPerson(const DepthFrame& frame) {
-  DepthImage rest = frame.depth;
-  for (std::size_t i = 0; i < rest.data.size(); ++i) {
-    if (segmentation.actor().mask.data[i] != 0) rest.data[i] = 0.0F;
+void Calibrator::Impl::findPeople(const DepthImage& depth) {
+  people.clear();
+  standing = nullptr;
+  for (const PersonRegion& region : segmentation.people) {
+    const std::vector<Eigen::Vector3f> points = actorPoints(depth, region.mask, camera);
+    if (points.size() < kFewestPixels) continue;
+    const BodyOutline outline = measureOutline(points);
+    const bool is_first = people.empty();
+    const bool is_large = !is_first && region.pixel_count >= kRivalShare * people.front().region->pixel_count;
+    if (is_first || (is_large && outline.height() > kMinRivalHeight_m)) people.push_back({&region, outline});
   }
-  Segmenter other{SegmentConfig{}};
-  segment(rest, other, rival);
-  if (rival.actor().pixel_count < kRivalShare * segmentation.actor().pixel_count) return false;
-  float top = 1e9F;
-  float bottom = -1e9F;
-  for (int y = 0; y < rest.height; ++y) {
-    for (int x = 0; x < rest.width; ++x) {
-      if (rival.actor().mask.at(x, y) == 0 || rest.at(x, y) <= 0) continue;
-      const auto p = camera.unproject(x, y, static_cast<double>(rest.at(x, y)));
-      top = std::min(top, static_cast<float>(p.y()));
-      bottom = std::max(bottom, static_cast<float>(p.y()));
-    }
+}
+
+// The only one who stands in a T-pose; if nobody does, what the plainest one is to change.
+TPoseVerdict Calibrator::Impl::chooseActor() {
+  TPoseVerdict chosen;
+  for (const Somebody& somebody : people) {
+    const TPoseVerdict verdict = checkTPose(somebody.region->mask, somebody.outline, config.check);
+    if (verdict.good() && standing != nullptr) return kTwoTPoses;
+    if (verdict.good()) standing = &somebody;
+    if (verdict.good() || &somebody == &people.front()) chosen = verdict;
   }
-  return static_cast<double>(bottom - top) > kMinRivalHeight_m;
+  return chosen;
 }
 
 // The parts of a T-pose. The forest knows small and tall people as exceptions, and draws their parts towards those of
 // the average: so it is shown everybody at the average size, the whole scene scaled about the camera.
-void Calibrator::Impl::classifyScaled(const DepthImage& depth, double stature_m) {
+void Calibrator::Impl::classifyScaled(const DepthImage& depth, const MaskImage& mask, double stature_m) {
   const auto scale = static_cast<float>(kAverageStature_m / stature_m);
   scaled_depth = depth;
   for (float& value : scaled_depth.data) value *= scale;
-  models->tpose->classify(scaled_depth, segmentation.actor().mask, camera, classify_config, *tpose_memory, pixels);
+  models->tpose->classify(scaled_depth, mask, camera, classify_config, *tpose_memory, pixels);
   for (auto& pixel : pixels.pixels) pixel.depth_m /= scale;
 }
 
@@ -305,7 +317,8 @@ Actor Calibrator::Impl::fitBetterTemplate(const std::vector<const GoodFrame*>& f
 void Calibrator::Impl::refuseTwoPeople() const {
   const auto two = faults.find(TPoseFault::TwoPeople);
   if (two == faults.end() || two->second.first <= kTwoPeopleShare * (two->second.first + good_count)) return;
-  throw Error("two people are in view", "calibration", "let only the actor stand before the camera");
+  throw Error(config.any_pose ? "two people are in view" : "two people stand in a T-pose", "calibration",
+              "let only the actor stand before the camera");
 }
 
 // The actor, scaled to the stature that is given; throws where the fit says that it is none.
@@ -376,6 +389,10 @@ int Calibrator::goodFrames() const {
 
 bool Calibrator::enough() const {
   return impl_->good_count >= impl_->config.frames;
+}
+
+bool Calibrator::hadCompany() const {
+  return impl_->had_company;
 }
 
 Actor Calibrator::solve(const std::vector<PoseObservation>& others) {

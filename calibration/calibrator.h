@@ -45,8 +45,8 @@ struct FittedLimbs {
   std::optional<EllipticCylinder> torso;
 };
 
-// Collects the T-pose frames of a stream, tells the actor what to change, and fits the body to the best of them
-// (method section A (6)). Not thread-safe; deterministic for any number of threads.
+// Collects the T-pose frames of a stream, whoever else is in view; tells the actor what to change, and fits the body to
+// the best of them (method section A (6)). Not thread-safe; deterministic for any number of threads.
 class Calibrator {
  public:
   // Throws Error for an invalid config.
@@ -57,9 +57,11 @@ class Calibrator {
   TPoseVerdict add(const DepthFrame& frame);
   [[nodiscard]] int goodFrames() const;
   [[nodiscard]] bool enough() const;
+  // Somebody else was in view in a good frame: which one a tracker follows in others is not sure.
+  [[nodiscard]] bool hadCompany() const;
 
   // The body by the frames so far. Throws Error saying why the recording does not do and what to change: too few good
-  // frames (with the most frequent fault), two people, no body that fits. `others`: frames in other poses
+  // frames (with the most frequent fault), two in a T-pose, no body that fits. `others`: frames in other poses
   // (PoseCollector), which are solved for together with the T-pose.
   Actor solve(const std::vector<PoseObservation>& others = {});
 

@@ -127,18 +127,29 @@ TEST(Calibrator, RefusesADollOf60Centimetres) {
   EXPECT_NE(verdict.advice.find("no adult's size"), std::string::npos) << verdict.advice;
 }
 
-TEST(Calibrator, RefusesTwoPeople) {
+// The other stands nearer to the camera, arms down.
+TEST(Calibrator, TakesTheOneWhoStandsInATPose) {
   const CameraModel camera = sensorCamera(SensorKind::Kinect1);
+  const BodySurface body = adult(Sex::Male, 1.82, 80);
+  const Stander other = standing(adult(Sex::Female, 1.62, 60), 1.15, 2.6, 0, -1.4);
   Calibrator calibrator(shippedModels(), camera, {});
-  Stander other = standing(adult(Sex::Female, 1.65, 60), 1.25, 3.6);
-  other.q[kLhumerusRz] = -1.4;
-  other.q[kRhumerusRz] = 1.4;
   for (int i = 0; i < 11; ++i) {
-    calibrator.add(
-        photograph({standing(adult(Sex::Male, 1.75, 70), -0.3, 2.9), other}, SensorKind::Kinect1, camera, i));
+    const TPoseVerdict verdict =
+        calibrator.add(photograph({standing(body, -0.35, 3.0), other}, SensorKind::Kinect1, camera, i));
+    EXPECT_TRUE(verdict.good()) << verdict.advice;
   }
+  EXPECT_TRUE(calibrator.hadCompany());
+  EXPECT_NEAR(calibrator.solve().stature_m(), 1.82, 0.03);
+}
+
+TEST(Calibrator, RefusesTwoInATPose) {
+  const CameraModel camera = sensorCamera(SensorKind::Kinect2);
+  Calibrator calibrator(shippedModels(), camera, {});
+  const std::vector<Stander> people = {standing(adult(Sex::Male, 1.75, 70), -0.95, 3.4),
+                                       standing(adult(Sex::Female, 1.65, 60), 0.95, 3.4)};
+  for (int i = 0; i < 11; ++i) calibrator.add(photograph(people, SensorKind::Kinect2, camera, i));
   const std::string error = errorOf([&] { calibrator.solve(); });
-  EXPECT_NE(error.find("two people are in view"), std::string::npos) << error;
+  EXPECT_NE(error.find("two people stand in a T-pose"), std::string::npos) << error;
 }
 
 TEST(Calibrator, WithoutATPoseItStillRefusesTwoPeopleFewFramesAndFewPoses) {
