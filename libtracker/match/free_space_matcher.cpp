@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "depthmocap/error.h"
 
@@ -9,6 +10,16 @@ namespace depthmocap {
 namespace {
 
 constexpr double kMinDepth_m = 0.2;  // nearer the projection says nothing
+
+// [m] A leg farther from the outline is judged only where the mask has all of the legs. With none judged, ankles of
+// a man on a sofa were 7.5 cm off in the image, with all 6.4; legs at rendered tables 5 and 16 cm. 0.06 to 0.25
+// compared.
+constexpr double kNearOutline_m = 0.08;
+
+bool isOfLeg(Part part) {
+  return part == Part::LeftUpperLeg || part == Part::RightUpperLeg || part == Part::LeftLowerLeg ||
+         part == Part::RightLowerLeg;
+}
 
 }  // namespace
 
@@ -66,13 +77,14 @@ FreeSpaceMatcher::Violation FreeSpaceMatcher::check(const Eigen::Vector3f& p_wor
   return {R_world_camera_ * (target + allowed * direction), R_world_camera_ * direction, distance - allowed};
 }
 
-void FreeSpaceMatcher::match(const PlacedSurface& placed, SurfaceMatches& matches) {
+void FreeSpaceMatcher::match(const PlacedSurface& placed, bool whole, SurfaceMatches& matches) {
   if (config_.max_matches == 0 || silhouette_.empty()) return;
   found_.clear();
-  for (const auto& part : placed.parts) {
-    for (const PlacedSurface::Point& point : part) {
+  for (int part = 0; part < kPartCount; ++part) {
+    const double most_m = !whole && isOfLeg(partAt(part)) ? kNearOutline_m : std::numeric_limits<double>::max();
+    for (const PlacedSurface::Point& point : placed.parts[static_cast<std::size_t>(part)]) {
       const Violation violation = check(point.p_world);
-      if (violation.size_m <= 0) continue;
+      if (violation.size_m <= 0 || violation.size_m > most_m) continue;
       const double ratio = violation.size_m / config_.sigma_m;
       found_.push_back({point.model, violation.target_world, violation.direction_world,
                         config_.weight / (1.0 + 0.5 * ratio * ratio)});

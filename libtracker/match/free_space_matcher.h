@@ -29,8 +29,9 @@ class FreeSpaceMatcher {
   // The frame; both images must outlive the calls of match().
   void observe(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
                const Eigen::Matrix3d& R_world_camera);
-  // Appends the violations of a placed body, spread evenly where there are more than max_matches.
-  void match(const PlacedSurface& placed, SurfaceMatches& matches);
+  // Appends the violations of a placed body, spread evenly where there are more than max_matches. `whole` false: the
+  // mask may lack legs though they are in view (below a table), and those far from it are not judged.
+  void match(const PlacedSurface& placed, bool whole, SurfaceMatches& matches);
 
  private:
   struct Violation {

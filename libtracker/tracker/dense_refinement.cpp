@@ -51,8 +51,9 @@ void DenseRefinement::forget() {
   outline_noise_ = {kOutlineNoise, kFirstOutline_m};
 }
 
-void DenseRefinement::look(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
+void DenseRefinement::look(const DepthImage& depth, const MaskImage& mask, bool whole, const CameraModel& camera,
                            const Eigen::Matrix3d& R_world_camera) {
+  whole_ = whole;
   camera_ = camera;
   R_world_camera_ = R_world_camera;
   if (rounds_ == 0) return;
@@ -95,7 +96,7 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Ac
     outline_.match(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_, matches_);
     touched_ = matches_.size() - measured_;
     for (std::size_t i = measured_; i < matches_.size(); ++i) matches_[i].weight *= outline_noise_.information();
-    free_space_.match(placed_, matches_);
+    free_space_.match(placed_, whole_, matches_);
     input.surface = &matches_;
     summary = solver.solve(input, q);
     iterations += summary.iterations;

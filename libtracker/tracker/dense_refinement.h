@@ -22,8 +22,9 @@ class DenseRefinement {
   DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline, const FreeSpaceConfig& free_space,
                   int rounds);
 
-  // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame.
-  void look(const DepthImage& depth, const MaskImage& mask, const CameraModel& camera,
+  // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame. `whole`
+  // false: the mask may lack the legs.
+  void look(const DepthImage& depth, const MaskImage& mask, bool whole, const CameraModel& camera,
             const Eigen::Matrix3d& R_world_camera);
   // q: a solved pose, then the refined one. `input` without its surface; `summary` is replaced where a round was done.
   void refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input, MapSolver& solver, Pose& q,
@@ -60,6 +61,7 @@ class DenseRefinement {
   ForwardKinematics fk_;
   PlacedSurface placed_;
   CameraModel camera_;
+  bool whole_ = true;
   Eigen::Matrix3d R_world_camera_ = Eigen::Matrix3d::Identity();
   std::vector<float> heights_;  // [m] world y of every classified pixel
 };

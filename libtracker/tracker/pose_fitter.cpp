@@ -29,7 +29,7 @@ PoseFitter::PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor
 
 void PoseFitter::look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
                       const Eigen::Matrix3d& R_world_camera) {
-  dense_.look(depth, actor.mask, camera, R_world_camera);
+  dense_.look(depth, actor.mask, !(actor.in_room && actor.cut_below), camera, R_world_camera);
   whole_in_view_ = !actor.touches_border && !actor.covered && !actor.cut_below;
 }
 

@@ -22,13 +22,14 @@ struct Scene {
       }
     }
   }
-  SurfaceMatches matchOf(const Eigen::Vector3d& p_camera, const FreeSpaceConfig& config = {}) const {
-    FreeSpaceMatcher matcher(config);
+  SurfaceMatches matchOf(const Eigen::Vector3d& p_camera, Part part = Part::Head, bool whole = true) const {
+    FreeSpaceMatcher matcher({});
     matcher.observe(depth, mask, camera, R_world_camera);
     PlacedSurface placed;
-    placed.parts[0].push_back({(R_world_camera * p_camera).cast<float>(), Eigen::Vector3f::UnitZ(), {}});
+    placed.parts[static_cast<std::size_t>(partIndex(part))].push_back(
+        {(R_world_camera * p_camera).cast<float>(), Eigen::Vector3f::UnitZ(), {}});
     SurfaceMatches matches;
-    matcher.match(placed, matches);
+    matcher.match(placed, whole, matches);
     return matches;
   }
 };
@@ -68,6 +69,18 @@ TEST(FreeSpaceMatcher, SaysNothingOutOfViewOrBehindAnObstacle) {
   EXPECT_TRUE(scene.matchOf({edge + 0.15, 0, 2.0}).empty());
 }
 
+TEST(FreeSpaceMatcher, LeavesLegsFarFromTheOutlineAloneWhereTheMaskMayLackThem) {
+  const Scene scene;
+  const double edge = scene.camera.unproject(420, 240, 2.0).x();
+  const double beside = edge + 0.15;
+  for (const Part part : {Part::LeftUpperLeg, Part::RightLowerLeg}) {
+    EXPECT_TRUE(scene.matchOf({beside, 0, 2.0}, part, false).empty());
+    EXPECT_EQ(scene.matchOf({beside, 0, 2.0}, part, true).size(), 1U);
+    EXPECT_EQ(scene.matchOf({edge + 0.07, 0, 2.0}, part, false).size(), 1U);
+  }
+  EXPECT_EQ(scene.matchOf({beside, 0, 2.0}, Part::LeftLowerArm, false).size(), 1U);
+}
+
 TEST(FreeSpaceMatcher, WeighsAFarViolationLess) {
   const Scene scene;
   const SurfaceMatches near = scene.matchOf({0, 0, 1.95});
@@ -89,12 +102,12 @@ TEST(FreeSpaceMatcher, KeepsToItsShareAndIsSilentWithoutAnActor) {
   FreeSpaceMatcher matcher(config);
   matcher.observe(scene.depth, scene.mask, scene.camera, scene.R_world_camera);
   SurfaceMatches matches;
-  matcher.match(placed, matches);
+  matcher.match(placed, true, matches);
   EXPECT_EQ(matches.size(), 7U);
   scene.mask.reset(640, 480, 0);
   matcher.observe(scene.depth, scene.mask, scene.camera, scene.R_world_camera);
   matches.clear();
-  matcher.match(placed, matches);
+  matcher.match(placed, true, matches);
   EXPECT_TRUE(matches.empty());
 }
 
