@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,6 +16,7 @@ struct WebContent {
   std::string type;  // "text/html; charset=utf-8"
   std::string body;
   int status = 200;
+  std::filesystem::path file = {};  // sent in place of the body, to be saved under its name: letters, digits, ._-
 };
 
 struct WebServerConfig {
@@ -41,8 +43,9 @@ struct WebServerConfig {
 // cannot reach it. What is wrong gets a 4xx answer with {"error": "..."}.
 class WebServer {
  public:
-  // Called on the server's thread, but for onPostAside(). A handler that throws Error answers 400 with its text.
-  using Handler = std::function<WebContent(const std::string& body)>;
+  // Takes the body of a POST or the target of a GET (path and query). Called on the server's thread, but for
+  // onPostAside() and onGetAside(). A handler that throws Error answers 400 with its text.
+  using Handler = std::function<WebContent(const std::string& body_or_target)>;
   // A text message of a client; the answer, if any, goes to that client.
   using TextHandler = std::function<std::string(const std::string& text)>;
 
@@ -61,10 +64,13 @@ class WebServer {
   // The same for what takes longer than a stream may wait: the handler runs on threads of its own, `workers` requests
   // at a time, in the background.
   void onPostAside(const std::string& path, Handler handler);
+  void onGetAside(const std::string& path, Handler handler);
   void onText(TextHandler handler);
   // What every client of /stream is sent first.
   void setGreeting(std::function<std::string()> greeting);
   void start();
+  // Nothing is answered any more, and no handler is called. May be called twice; the destructor does it, too.
+  void stop();
 
   // Path and method of every handler, and /stream; the files of serveFile() are not among them.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> routes() const;

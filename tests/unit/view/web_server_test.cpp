@@ -30,6 +30,12 @@ class RunningServer : public testing::Test {
       for (int i = 0; i < 500 && !may_end_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       return WebContent{"text/plain", "slow " + body};
     });
+    server_->onGetAside("/file", [this](const std::string& target) {
+      if (target != "/file?name=take") throw Error("is not there", target);
+      WebContent content{"application/octet-stream", ""};
+      content.file = folder_ / "take.bvh";
+      return content;
+    });
     server_->onText([](const std::string& text) { return "got " + text; });
     server_->setGreeting([] { return std::string("hello"); });
     server_->start();
@@ -62,6 +68,7 @@ class RunningServer : public testing::Test {
   // Still well after what a test did to it.
   ~RunningServer() override { EXPECT_NE(ask("GET", "/").find("<p>page</p>"), std::string::npos); }
 
+  TemporaryFolder folder_;
   std::atomic<bool> may_end_{false};
   std::unique_ptr<WebServer> server_;
 };
@@ -96,6 +103,37 @@ TEST_F(RunningServer, AnswersOthersWhileASlowHandlerWorks) {
   EXPECT_EQ(ask("POST", "/slow", "", "bad").rfind("HTTP/1.1 400", 0), 0U);
   EXPECT_EQ(ask("POST", "/slow", "Origin: http://evil.example\r\n", "x").rfind("HTTP/1.1 403", 0), 0U);
   EXPECT_EQ(ask("GET", "/slow").rfind("HTTP/1.1 405", 0), 0U);
+}
+
+TEST_F(RunningServer, SendsFiles) {
+  const std::string bytes(3'000'000, 'x');
+  writeBytes(folder_ / "take.bvh", bytes);
+  const Connection connection(server_->port());
+  connection.send("GET /file?name=take HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
+  const std::string answer = connection.receive(bytes.size() + 10000);
+  EXPECT_EQ(answer.rfind("HTTP/1.1 200", 0), 0U);
+  EXPECT_NE(answer.find("Content-Disposition: attachment; filename=\"take.bvh\"\r\n"), std::string::npos);
+  EXPECT_EQ(answer.substr(answer.find("\r\n\r\n") + 4), bytes);
+  const std::string head = ask("HEAD", "/file?name=take");
+  EXPECT_NE(head.find("Content-Length: 3000000\r\n"), std::string::npos) << head;
+  EXPECT_EQ(head.find("xxx"), std::string::npos);
+  const std::string other = ask("GET", "/file?name=../take.bvh");
+  EXPECT_EQ(other.rfind("HTTP/1.1 400", 0), 0U) << other;
+  std::filesystem::remove(folder_ / "take.bvh");
+  EXPECT_EQ(ask("GET", "/file?name=take").rfind("HTTP/1.1 404", 0), 0U);
+  EXPECT_EQ(ask("POST", "/file?name=take").rfind("HTTP/1.1 405", 0), 0U);
+}
+
+// Clients that ask for a file and never read it, and those that go while it is sent.
+TEST_F(RunningServer, OutlivesThoseWhoLeaveFilesUnread) {
+  writeBytes(folder_ / "take.bvh", std::string(20'000'000, 'x'));
+  std::vector<std::unique_ptr<Connection>> idle;
+  for (int i = 0; i < 40; ++i) {
+    idle.push_back(std::make_unique<Connection>(server_->port()));
+    idle.back()->send("GET /file?name=take HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
+    if (i % 2 == 0) idle.back().reset();
+  }
+  EXPECT_NE(ask("GET", "/").find("<p>page</p>"), std::string::npos);
 }
 
 TEST_F(RunningServer, EndsWhileASlowHandlerWorks) {
