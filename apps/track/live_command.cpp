@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -11,14 +12,17 @@
 #include "apps/terminal/status_line.h"
 #include "apps/terminal/stop_request.h"
 #include "apps/track/camera_watch.h"
+#include "apps/track/page_tracking.h"
 #include "apps/track/seen_depth.h"
 #include "apps/track/source_options.h"
+#include "apps/track/start_page.h"
 #include "apps/track/track_options.h"
 #include "apps/track/track_outputs.h"
 #include "apps/track/tracker_setup.h"
 #include "apps/track/turn_trial.h"
 #include "apps/view/live_view.h"
 #include "depthmocap/error.h"
+#include "libtracker/sensor/driver_table.h"
 #include "libtracker/session/live_session.h"
 
 namespace depthmocap {
@@ -69,20 +73,29 @@ std::string summaryText(const LiveFigures& f, const RunStats& stats, const SeenD
   return text;
 }
 
+// Recordings on the page are tracked beside the camera's frames, on one thread that gives way to them.
+ReplayOptions replayOptions(const LiveOptions& options) {
+  ReplayOptions replay;
+  replay.track = options.track;
+  replay.track.threads = 1;
+  return replay;
+}
+
 // What a run owns, in the order in which it has to come up.
 struct LiveRun {
   explicit LiveRun(const LiveOptions& options)
       : source(openChosenSource(options.source)),
         models(loadModels(options.track)),
         tracker(models, source->info().camera, trackerConfig(options.track), actorOf(options.track)),
-        outputs(options.track, source->info()) {
+        outputs(options.track, source->info()),
+        recordings(replayOptions(options)) {
     if (!options.record.empty()) recorder.emplace(options.record, source->info(), source->waitsForReader());
     session.emplace(*source, tracker, recorder ? &*recorder : nullptr,
                     LiveSessionOptions{options.source.seconds, options.track.smooth});
     session->addSink(outputs);
     if (options.track.view.on) {
       session->addSink(view.emplace(options.track.view, options.source.source, source->info(), models,
-                                    options.track.threads, tracker));
+                                    options.track.threads, tracker, recordings));
     }
     session->addSink(terminal);
     session->addSink(seen);
@@ -93,6 +106,7 @@ struct LiveRun {
   Tracker tracker;
   TrackOutputs outputs;
   std::optional<Recorder> recorder;
+  PageTracking recordings;
   std::optional<LiveView> view;
   TerminalSink terminal;
   SeenDepth seen;
@@ -128,6 +142,38 @@ void finish(LiveRun& run, LiveFigures& figures, const LiveOptions& options, doub
   std::cerr << summaryText(figures, run.session->stats(), run.seen, turn) << '\n';
 }
 
+// Names the first camera that is there; the start page stays until there is one, and while a recording is open on it.
+// False after Ctrl-C.
+bool waitForCamera(LiveOptions& options) {
+  constexpr std::chrono::seconds kLookEvery{3};
+  const StopRequest on_ctrl_c;
+  const WebServerConfig config = webServerConfig(options.track.view);
+  PageTracking tracking(replayOptions(options));
+  std::optional<StartPage> start;
+  for (auto next = SensorClock::now(); !StopRequest::made();) {
+    const bool opened = start && start->page().isOpened();
+    const std::vector<FoundCamera> cameras = opened ? std::vector<FoundCamera>{} : cameraDrivers().list();
+    if (!cameras.empty()) {
+      options.source.source = cameras.front().source;
+      return true;
+    }
+    if (!start) {
+      start.emplace(config, options.track.view, StartPage::Cameras::WaitedFor, tracking).page().start();
+      // The page that follows has the same address.
+      options.track.view.port = start->page().server().port();
+      options.track.view.token = config.token;
+      std::cerr
+          << "no camera yet: plug one in, or open a recording on the page (depthmocap cameras --check says more)\n"
+          << "view: " << start->page().server().url() << std::endl;
+    }
+    next += kLookEvery;
+    while (SensorClock::now() < next && !StopRequest::made()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  return false;
+}
+
 void live(const LiveOptions& options) {
   OutputCheck check;
   check.readsRecording(options.source.source);
@@ -153,16 +199,22 @@ void live(const LiveOptions& options) {
 void addLiveCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("live", "Tracks a camera as it sees, until Ctrl-C.");
   const auto options = std::make_shared<LiveOptions>();
-  addSourceOptions(*command, options->source);
+  addSourceOptions(*command, options->source)->required(false);
   command->add_option("--record", options->record, "Folder to record what the camera sees to")->type_name("REC");
   addTrackOptions(*command, options->track);
   command->footer(
       "A frame that comes while the one before is worked on replaces it, if it waits: delay never adds up.\n"
       "A camera that is unplugged is waited for. docs/guide/cameras.md says which cameras work.\n"
+      "With --view and no --source the first camera is taken; the page offers recordings until one is plugged in.\n"
       "Example:\n"
+      "  depthmocap live --view\n"
       "  depthmocap live --source openni2 --bvh take.bvh --record take\n"
       "  depthmocap live --source replay:recordings/walk --joints joints.csv");
-  command->callback([options] { live(*options); });
+  command->callback([options] {
+    const bool named = !options->source.source.empty();
+    if (!named && !options->track.view.on) throw CLI::RequiredError("--source (or --view, which waits for a camera)");
+    if (named || waitForCamera(*options)) live(*options);
+  });
 }
 
 }  // namespace depthmocap

@@ -9,6 +9,7 @@
 #include "apps/terminal/progress.h"
 #include "apps/terminal/stop_request.h"
 #include "apps/terminal/warnings.h"
+#include "apps/track/page_tracking.h"
 #include "apps/track/recording_run.h"
 #include "apps/track/replay_folder.h"
 #include "apps/track/seen_depth.h"
@@ -80,6 +81,7 @@ void replay(const ReplayOptions& o) {
   warn(run.reader->info().guesses);
   ReplaySession& session = run.session;
   Pace pace;
+  PageTracking recordings(o);
   std::optional<ReplayView> view;
   if (!o.track.vmc.empty() || !o.track.osc_trackers.empty()) session.addSink(pace);
   session.addSink(run.outputs);
@@ -87,7 +89,10 @@ void replay(const ReplayOptions& o) {
   session.addSink(seen);
   TurnTrial trial;
   session.addSink(trial);
-  if (o.track.view.on) session.addSink(view.emplace(o.track.view, o.recording, correction, session.frameCount()));
+  if (o.track.view.on) {
+    session.addSink(view.emplace(o.track.view, NamedRecording{o.recording, correction}, session.frameCount(),
+                                 o.track.people, recordings));
+  }
   {
     Progress progress("tracking", session.frameCount());
     session.run({[&](std::size_t done, std::size_t) { progress.update(done); },

@@ -25,14 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isRecording(const fs::path& path) {
-  if (!fs::is_directory(path)) return path.extension() == ".oni";
-  return fs::exists(path / "recording.json") || fs::exists(path / "depth.txt");
-}
-
 void collect(const fs::path& folder, const fs::path& top, std::vector<fs::path>& found) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (isRecording(entry.path())) {
+    if (looksLikeRecording(entry.path())) {
       found.push_back(entry.path().lexically_relative(top));
     } else if (entry.is_directory() && !entry.is_symlink()) {
       collect(entry.path(), top, found);

@@ -24,11 +24,11 @@ void addDriverOption(CLI::App& command, const DriverOption& option, SourceOption
 
 }  // namespace
 
-void addSourceOptions(CLI::App& command, SourceChoice& c) {
-  command.add_option("--source", c.source, cameraDrivers().help())
-      ->type_name("SRC")
-      ->check([](const std::string& name) { return checkSourceName(name); })
-      ->required();
+CLI::Option* addSourceOptions(CLI::App& command, SourceChoice& c) {
+  CLI::Option* source = command.add_option("--source", c.source, cameraDrivers().help())
+                            ->type_name("SRC")
+                            ->check([](const std::string& name) { return checkSourceName(name); })
+                            ->required();
   command.add_option("--seconds", c.seconds, "Stop after so many seconds (default: go on until Ctrl-C)")
       ->check(CLI::PositiveNumber);
   command.add_option("--mode", c.mode, "Picture size and rate to ask the camera for, like 640x480@30")
@@ -38,6 +38,7 @@ void addSourceOptions(CLI::App& command, SourceChoice& c) {
   for (const CameraDriver& driver : cameraDrivers().drivers()) {
     for (const DriverOption& option : driver.options) addDriverOption(command, option, c.of_driver);
   }
+  return source;
 }
 
 std::unique_ptr<DepthSource> openChosenSource(const SourceChoice& choice) {

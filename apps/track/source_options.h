@@ -6,7 +6,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace depthmocap {
 
@@ -19,7 +20,8 @@ struct SourceChoice {
   double seconds = 0;       // 0 = until the source ends or Ctrl-C
 };
 
-void addSourceOptions(CLI::App& command, SourceChoice& choice);
+// Returns the option --source, which must be given unless the command says otherwise.
+CLI::Option* addSourceOptions(CLI::App& command, SourceChoice& choice);
 
 // Opens the source that was chosen; Error as openSource.
 std::unique_ptr<DepthSource> openChosenSource(const SourceChoice& choice);

@@ -21,25 +21,13 @@
 #include "libtracker/output/vmc_sender.h"
 #include "libtracker/recording/png_file.h"
 #include "libtracker/recording/track_files.h"
+#include "libtracker/session/people_labels.h"
 #include "libtracker/skeleton/forward_kinematics.h"
 
 namespace depthmocap {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Everybody's parts in one image, each person's raised by `step` times the number less one. `all` is working memory.
-const PartImage& together(std::span<const TrackedFrame* const> people, int step, PartImage& all) {
-  if (people.size() == 1) return people.front()->labels;
-  all = people.front()->labels;
-  for (const TrackedFrame* person : people.subspan(1)) {
-    for (std::size_t i = 0; i < all.data.size(); ++i) {
-      const std::uint8_t part = person->labels.data[i];
-      if (part != 0) all.data[i] = static_cast<std::uint8_t>(part + step * (person->person - 1));
-    }
-  }
-  return all;
-}
 
 class LabelWriter {
  public:
@@ -49,9 +37,8 @@ class LabelWriter {
     if (failure) throw Error("cannot make the folder: " + failure.message(), folder_.string());
   }
   void write(std::span<const TrackedFrame* const> people) {
-    constexpr int kNumberStep = 16;  // between people: part + 16 * (number - 1)
     const TrackedFrame& first = *people.front();
-    const PartImage& labels = together(people, kNumberStep, all_);
+    const PartImage& labels = labelsOfAll(people, kPersonLabelStep, all_);
     char name[32];
     std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(first.frame));
     writePng8(folder_ / name, labels);
@@ -149,7 +136,7 @@ void TrackOutputs::onFrame(const SessionFrame& frame) {
   const bool nobody = std::ranges::all_of(rows, [](const JointsRow& row) { return row.state == TrackState::Lost; });
   if (f.joints && f.several && nobody) f.joints->write(rows.front());
   if (f.labels) f.labels->write(frame.people);
-  const PartImage& parts = together(frame.people, 0, f.all_parts);
+  const PartImage& parts = labelsOfAll(frame.people, 0, f.all_parts);
   const PreviewFrame preview{&frame.depth.depth, &parts, &frame.tracked.markers_camera,
                              rows.data(),        {},     std::span(rows).subspan(1)};
   if (f.preview) f.preview->write(preview);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "libtracker/core/background.h"
+#include "libtracker/session/people_labels.h"
 
 namespace depthmocap {
 
@@ -18,12 +19,14 @@ FrameSender::~FrameSender() {
   thread_.join();
 }
 
-void FrameSender::send(const DepthImage& depth, const TrackedFrame& tracked, const ViewFigures& figures) {
+void FrameSender::send(const DepthImage& depth, std::span<const TrackedFrame* const> people,
+                       const ViewFigures& figures) {
   {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;
-    encoder_.pick(depth, tracked.labels, waiting_.picture);
-    waiting_.tracked = tracked;
+    encoder_.pick(depth, labelsOfAll(people, kPersonLabelStep, all_labels_), waiting_.picture);
+    waiting_.people.resize(people.size());
+    for (std::size_t i = 0; i < people.size(); ++i) waiting_.people[i] = *people[i];
     waiting_.figures = figures;
     waits_ = true;
   }
@@ -41,7 +44,7 @@ void FrameSender::work() {
       std::swap(job, waiting_);  // keeps the memory of both
       waits_ = false;
     }
-    deliver_(encoder_.encode(job.picture, job.tracked, job.figures));
+    deliver_(encoder_.encode(job.picture, job.people, job.figures));
   }
 }
 

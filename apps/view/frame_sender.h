@@ -2,8 +2,10 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "apps/view/view_frame.h"
 
@@ -20,13 +22,13 @@ class FrameSender {
   FrameSender& operator=(const FrameSender&) = delete;
 
   // Never waits: a frame that is not sent yet is replaced, and one that comes while another is fetched is left out.
-  // `depth` at full size.
-  void send(const DepthImage& depth, const TrackedFrame& tracked, const ViewFigures& figures);
+  // `depth` at full size; `people`: everybody who may be tracked, by their numbers (>= 1).
+  void send(const DepthImage& depth, std::span<const TrackedFrame* const> people, const ViewFigures& figures);
 
  private:
   struct Job {
     ViewPicture picture;
-    TrackedFrame tracked;
+    std::vector<TrackedFrame> people;
     ViewFigures figures;
   };
   void work();
@@ -36,6 +38,7 @@ class FrameSender {
   std::mutex mutex_;
   std::condition_variable changed_;
   Job waiting_;  // guarded by the mutex, as are
+  PartImage all_labels_;
   bool waits_ = false;
   bool stop_ = false;
   std::thread thread_;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "apps/view/person_colors.h"
 #include "depthmocap/error.h"
 #include "depthmocap/joints.h"
 #include "depthmocap/parts.h"
@@ -40,10 +41,17 @@ std::string dumped(const json& message) {
   return message.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+template <typename Colors>
+json colorsIn(const Colors& colors) {
+  json list = json::array();
+  for (const auto& color : colors) list.push_back({color[0], color[1], color[2]});
+  return list;
+}
+
 }  // namespace
 
 LivePage::LivePage(const WebServerConfig& config, const std::filesystem::path& folder, LivePageInfo info)
-    : info_(std::move(info)), server_(config) {
+    : command_(std::move(info)), info_(command_), server_(config) {
   for (const PageFile& file : kFiles) {
     const bool open = std::string_view(file.path) != "/";
     server_.serveFile(file.path, {file.type, readFile(folder / file.name, "a file of the page", kMostPageBytes)}, open);
@@ -60,17 +68,26 @@ LivePage::LivePage(const WebServerConfig& config, const std::filesystem::path& f
   server_.onText([this](const std::string& text) { return received(text); });
 }
 
-std::string LivePage::hello() const {
-  json colors = json::array();
-  for (const auto& color : kPartColors) colors.push_back({color[0], color[1], color[2]});
+std::vector<std::string> LivePage::controls() const {
+  std::vector<std::string> all = info_.controls;
+  if (opening_) all.emplace_back("open");
+  if (opening_) all.emplace_back("close");
+  return all;
+}
+
+std::string LivePage::hello() {
+  const std::lock_guard lock(mutex_);
   return dumped({{"type", "hello"},
                  {"version", 1},
                  {"mode", info_.mode},
                  {"source", info_.source},
-                 {"controls", info_.controls},
+                 {"opened", holder_ == PageHolder::Opened},
+                 {"controls", controls()},
+                 {"people", info_.people},
                  {"joints", kJointNames},
                  {"parts", kPartNames},
-                 {"part_colors", colors},
+                 {"part_colors", colorsIn(kPartColors)},
+                 {"person_colors", colorsIn(kPersonColors)},
                  {"body_stature_m", kBodyStature_m}});
 }
 
@@ -78,10 +95,15 @@ std::string LivePage::received(const std::string& text) {
   try {
     const ViewCommand command = parseViewCommand(text);
     const std::string name = parseJson(text, "message")["type"];
-    if (std::find(info_.controls.begin(), info_.controls.end(), name) == info_.controls.end()) {
-      throw Error("\"" + name + "\" does not work here", "message");
+    const bool opens = command.action == ViewAction::Open || command.action == ViewAction::Close;
+    if (opens && opening_) {
+      opening_(command);
+      return {};
     }
     const std::lock_guard lock(mutex_);
+    if (std::ranges::find(info_.controls, name) == info_.controls.end()) {
+      throw Error("\"" + name + "\" does not work here", "message");
+    }
     if (commands_.size() >= kMaxCommands) throw Error("too many commands are waiting", "message");
     commands_.push_back(command);
     return {};
@@ -90,18 +112,36 @@ std::string LivePage::received(const std::string& text) {
   }
 }
 
-void LivePage::sendFrame(std::string message) {
-  server_.sendFrame(std::make_shared<const std::string>(std::move(message)));
+void LivePage::open(LivePageInfo info) {
+  hand(PageHolder::Opened, std::move(info));
+}
+
+void LivePage::close() {
+  hand(PageHolder::Command, command_);
+}
+
+void LivePage::hand(PageHolder holder, LivePageInfo info) {
+  {
+    const std::lock_guard lock(mutex_);
+    holder_ = holder;
+    info_ = std::move(info);
+    commands_.clear();  // they were meant for the one before
+  }
+  server_.sendText(hello());
+}
+
+void LivePage::sendFrame(PageHolder holder, std::string message) {
+  if (holder_ == holder) server_.sendFrame(std::make_shared<const std::string>(std::move(message)));
 }
 
 void LivePage::sendEvent(const std::string& what, const std::string& text) {
   server_.sendText(dumped({{"type", "event"}, {"what", what}, {"text", text}}));
 }
 
-std::optional<ViewCommand> LivePage::nextCommand() {
+std::optional<ViewCommand> LivePage::nextCommand(PageHolder holder) {
   const std::lock_guard lock(mutex_);
-  if (commands_.empty()) return std::nullopt;
-  const ViewCommand command = commands_.front();
+  if (holder_ != holder || commands_.empty()) return std::nullopt;
+  ViewCommand command = std::move(commands_.front());
   commands_.pop_front();
   return command;
 }

@@ -8,6 +8,7 @@
 
 #include "apps/view/frame_sender.h"
 #include "apps/view/live_page.h"
+#include "apps/view/recording_desk.h"
 #include "apps/view/view_options.h"
 #include "calibration/live_calibration.h"
 #include "depthmocap/error.h"
@@ -47,18 +48,23 @@ std::optional<Eigen::Vector3d> pointAt(const ViewCommand& click, const DepthImag
   return std::nullopt;
 }
 
+int peopleOf(const Tracker& tracker) {
+  return static_cast<int>(tracker.people().size());
+}
+
 }  // namespace
 
 struct LiveView::Impl {
   Impl(const ViewOptions& o, const std::string& source, const RecordingInfo& recording_info, const Models& m,
-       int thread_count, Tracker& t)
+       int thread_count, Tracker& t, RecordingTracker& recordings)
       : options(o),
         info(recording_info),
         models(m),
         threads(thread_count),
         tracker(t),
-        page(webServerConfig(o), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}}),
-        sender(info.camera, [this](std::string message) { page.sendFrame(std::move(message)); }) {
+        page(webServerConfig(o), pageFolder(), {"live", source, {"record", "calibrate", "reset", "lock"}, peopleOf(t)}),
+        desk(page, RecordingShelf(o.folder), recordings, peopleOf(t)),
+        sender(info.camera, [this](std::string message) { page.sendFrame(PageHolder::Command, std::move(message)); }) {
     if (o.vmc_listen > 0) assistants.emplace(o.vmc_listen);
   }
 
@@ -66,6 +72,7 @@ struct LiveView::Impl {
   void record(bool on);
   void startCalibration();
   void calibrate(const DepthFrame& frame);
+  void tellOfCamera(const CaptureStatus& now);
 
   const ViewOptions options;
   const RecordingInfo info;
@@ -74,10 +81,12 @@ struct LiveView::Impl {
   Tracker& tracker;
   ViewFigures figures;
   int takes = 0;
+  bool camera_there = true;
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<LiveCalibration> calibration;
   LivePage page;
-  FrameSender sender;  // after the page
+  RecordingDesk desk;  // after the page, as is
+  FrameSender sender;
   std::optional<VmcListener> assistants;
 };
 
@@ -145,9 +154,16 @@ void LiveView::Impl::calibrate(const DepthFrame& frame) {
   calibration.reset();
 }
 
+void LiveView::Impl::tellOfCamera(const CaptureStatus& now) {
+  if (now.connected == camera_there) return;
+  camera_there = now.connected;
+  if (camera_there) page.sendEvent("camera_back", "The camera is back.");
+  if (!camera_there) page.sendEvent("camera_lost", "The camera is away: " + now.problem + ". Plug it in again.");
+}
+
 LiveView::LiveView(const ViewOptions& options, const std::string& source, const RecordingInfo& info,
-                   const Models& models, int threads, Tracker& tracker)
-    : impl_(std::make_unique<Impl>(options, source, info, models, threads, tracker)) {
+                   const Models& models, int threads, Tracker& tracker, RecordingTracker& recordings)
+    : impl_(std::make_unique<Impl>(options, source, info, models, threads, tracker, recordings)) {
   impl_->page.start();
   std::cerr << "view: " << impl_->page.server().url() << std::endl;
 }
@@ -158,17 +174,18 @@ void LiveView::onFrame(const SessionFrame& given) {
   Impl& s = *impl_;
   const DepthFrame& frame = given.depth;
   if (s.recorder) s.recorder->push({frame, {}});
-  if (s.page.frameWanted()) {
+  if (s.page.frameWanted(PageHolder::Command)) {
     s.figures.clients = s.page.server().clients();
     s.figures.recording = s.recorder != nullptr;
-    s.sender.send(frame.depth, given.tracked, s.figures);
+    s.sender.send(frame.depth, given.people, s.figures);
   }
   s.calibrate(frame);
   if (s.assistants && s.assistants->calibrationAsked()) s.obey({.action = ViewAction::Calibrate}, frame);
-  while (const auto command = s.page.nextCommand()) s.obey(*command, frame);
+  while (const auto command = s.page.nextCommand(PageHolder::Command)) s.obey(*command, frame);
 }
 
 void LiveView::onStatus(const SessionStatus& status) {
+  impl_->tellOfCamera(status.camera);
   impl_->figures.fps = status.fps;
   impl_->figures.latency_ms = status.latency_ms;
 }

@@ -2,19 +2,20 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/view/recording_tracker.h"
 #include "apps/view/view_options.h"
 #include "libtracker/recording/recording.h"
 #include "libtracker/session/frame_sink.h"
 
 namespace depthmocap {
 
-// The live page of a recording: keeps what the tracker said about each frame and plays it, at the speed and from the
-// place that a page asks for, while the tracker works on. The tracker only adds; all else is done on other threads.
+// The live page of `replay --view`: its recording, played while it is tracked, and the other recordings to open.
 class ReplayView : public FrameSink {
  public:
-  // Starts the server. `correction`: as openRecording(); `total`: frames that there will be.
-  ReplayView(const ViewOptions& options, const std::filesystem::path& recording, const RecordingCorrection& correction,
-             std::size_t total);
+  // Starts the server. `total`: frames that there will be; `people`: most that are tracked. The tracker outlives the
+  // view.
+  ReplayView(const ViewOptions& options, const NamedRecording& recording, std::size_t total, int people,
+             RecordingTracker& tracker);
   ~ReplayView() override;
   ReplayView(const ReplayView&) = delete;
   ReplayView& operator=(const ReplayView&) = delete;

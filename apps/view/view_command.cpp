@@ -9,6 +9,7 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/core/json_file.h"
+#include "libtracker/segment/segment.h"
 
 namespace depthmocap {
 namespace {
@@ -16,14 +17,16 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kWhere = "message";
-constexpr std::array<std::pair<std::string_view, ViewAction>, 8> kNames = {{{"play", ViewAction::Play},
-                                                                            {"pause", ViewAction::Pause},
-                                                                            {"seek", ViewAction::Seek},
-                                                                            {"speed", ViewAction::Speed},
-                                                                            {"record", ViewAction::Record},
-                                                                            {"calibrate", ViewAction::Calibrate},
-                                                                            {"reset", ViewAction::Reset},
-                                                                            {"lock", ViewAction::Lock}}};
+constexpr std::array<std::pair<std::string_view, ViewAction>, 10> kNames = {{{"play", ViewAction::Play},
+                                                                             {"pause", ViewAction::Pause},
+                                                                             {"seek", ViewAction::Seek},
+                                                                             {"speed", ViewAction::Speed},
+                                                                             {"record", ViewAction::Record},
+                                                                             {"calibrate", ViewAction::Calibrate},
+                                                                             {"reset", ViewAction::Reset},
+                                                                             {"lock", ViewAction::Lock},
+                                                                             {"open", ViewAction::Open},
+                                                                             {"close", ViewAction::Close}}};
 
 double numberIn(const json& message, const char* key, double low, double high) {
   const double value = jsonNumber(message, key, kWhere);
@@ -35,7 +38,8 @@ ViewAction actionOf(const std::string& name) {
   for (const auto& [known, action] : kNames) {
     if (name == known) return action;
   }
-  throw Error("\"type\" is no command", kWhere, "play, pause, seek, speed, record, calibrate, reset or lock");
+  throw Error("\"type\" is no command", kWhere,
+              "play, pause, seek, speed, record, calibrate, reset, lock, open or close");
 }
 
 }  // namespace
@@ -53,6 +57,10 @@ ViewCommand parseViewCommand(const std::string& text) {
   if (command.action == ViewAction::Lock) {
     command.x = numberIn(message, "x", 0, 1);
     command.y = numberIn(message, "y", 0, 1);
+  }
+  if (command.action == ViewAction::Open) {
+    command.recording = jsonString(message, "recording", kWhere);
+    if (message.contains("people")) command.people = static_cast<int>(numberIn(message, "people", 1, kMostPeople));
   }
   return command;
 }

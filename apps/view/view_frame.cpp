@@ -48,7 +48,9 @@ json rotations(const Pose& q) {
   return list;
 }
 
+// Nothing of somebody who is lost.
 void addPose(json& head, const TrackedFrame& tracked) {
+  if (tracked.state == TrackState::Lost) return;
   json joints = json::array();
   json confidence = json::array();
   for (int j = 0; j < kJointCount; ++j) {
@@ -71,6 +73,25 @@ json markers(const MarkerSet& markers_camera, const Eigen::Matrix3d& R_world_cam
   return list;
 }
 
+// What stands in a frame for each of several people.
+json personIn(const TrackedFrame& tracked) {
+  json person = {{"person", tracked.person},
+                 {"state", trackStateName(tracked.state)},
+                 {"stature_m", rounded(tracked.stature_m, 1e4)},
+                 {"markers", markers(tracked.markers_camera, tracked.R_world_camera)}};
+  addPose(person, tracked);
+  return person;
+}
+
+// Those who are there.
+json peopleIn(std::span<const TrackedFrame> people) {
+  json list = json::array();
+  for (const TrackedFrame& tracked : people) {
+    if (tracked.state != TrackState::Lost) list.push_back(personIn(tracked));
+  }
+  return list;
+}
+
 }  // namespace
 
 ViewFrameEncoder::ViewFrameEncoder(const CameraModel& camera)
@@ -79,9 +100,17 @@ ViewFrameEncoder::ViewFrameEncoder(const CameraModel& camera)
       width_(camera.width / step_),
       height_(camera.height / step_) {}
 
-std::string ViewFrameEncoder::head(const TrackedFrame& tracked, const ViewFigures& figures) {
-  const bool lost = tracked.state == TrackState::Lost;
-  if (!lost) floor_y_ = floor_.update(makeSkeleton(tracked.lengths), tracked.q, tracked.time_s).y();
+// Under the first who is there.
+void ViewFrameEncoder::followFloor(std::span<const TrackedFrame> people) {
+  const auto there = [](const TrackedFrame& person) { return person.state != TrackState::Lost; };
+  const auto first = std::ranges::find_if(people, there);
+  if (first == people.end()) return;
+  floor_y_ = floor_.update(makeSkeleton(first->lengths), first->q, first->time_s).y();
+}
+
+std::string ViewFrameEncoder::head(std::span<const TrackedFrame> people, const ViewFigures& figures) {
+  followFloor(people);
+  const TrackedFrame& tracked = people.front();
   json head = {{"type", "frame"},
                {"frame", tracked.frame},
                {"time_s", rounded(tracked.time_s, 1e6)},
@@ -99,7 +128,8 @@ std::string ViewFrameEncoder::head(const TrackedFrame& tracked, const ViewFigure
                    {"fy", camera_.fy}, {"cx", camera_.cx},  {"cy", camera_.cy}};
   const Eigen::Quaterniond turn(tracked.R_world_camera * uprightWorldFromCamera().transpose());
   head["image"]["turn"] = {turn.x(), turn.y(), turn.z(), turn.w()};
-  if (!lost) addPose(head, tracked);
+  addPose(head, tracked);
+  if (people.size() > 1) head["people"] = peopleIn(people);
   if (figures.playback) {
     const Playback& p = *figures.playback;
     head["playback"] = {
@@ -125,9 +155,9 @@ void ViewFrameEncoder::pick(const DepthImage& depth, const PartImage& labels, Vi
   }
 }
 
-std::string ViewFrameEncoder::encode(const ViewPicture& picture, const TrackedFrame& tracked,
+std::string ViewFrameEncoder::encode(const ViewPicture& picture, std::span<const TrackedFrame> people,
                                      const ViewFigures& figures) {
-  std::string text = head(tracked, figures);
+  std::string text = head(people, figures);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const auto length = static_cast<std::uint32_t>(text.size());
   std::string message;

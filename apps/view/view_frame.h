@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,14 +41,17 @@ struct ViewPicture {
 class ViewFrameEncoder {
  public:
   explicit ViewFrameEncoder(const CameraModel& camera);
-  // `depth` and `labels` at full size; labels may be empty. Reuses the memory of `picture`.
+  // `depth` and `labels` (everybody's, see labelsOfAll) at full size; labels may be empty. Reuses the memory of
+  // `picture`.
   void pick(const DepthImage& depth, const PartImage& labels, ViewPicture& picture) const;
-  std::string encode(const ViewPicture& picture, const TrackedFrame& tracked, const ViewFigures& figures);
+  // `people`: everybody who may be tracked, by their numbers (>= 1).
+  std::string encode(const ViewPicture& picture, std::span<const TrackedFrame> people, const ViewFigures& figures);
   // Labels as they are in the message: every step-th pixel.
   [[nodiscard]] int step() const { return step_; }
 
  private:
-  [[nodiscard]] std::string head(const TrackedFrame& tracked, const ViewFigures& figures);
+  [[nodiscard]] std::string head(std::span<const TrackedFrame> people, const ViewFigures& figures);
+  void followFloor(std::span<const TrackedFrame> people);
 
   CameraModel camera_;
   int step_;

@@ -65,6 +65,12 @@ void RecordingCorrection::validate() const {
   throw Error(fmt::format("turn_deg must be 0, 90, 180 or 270, not {}", turn_deg), "correction");
 }
 
+bool looksLikeRecording(const fs::path& path) {
+  std::error_code unknown;
+  if (!fs::is_directory(path, unknown)) return path.extension() == ".oni";
+  return fs::exists(path / "recording.json", unknown) || fs::exists(path / "depth.txt", unknown);
+}
+
 std::unique_ptr<RecordingReader> openRecording(const fs::path& path, const RecordingCorrection& correction) {
   correction.validate();
   std::unique_ptr<RecordingReader> reader = openAsItIs(path, correction);

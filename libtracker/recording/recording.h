@@ -61,6 +61,9 @@ inline constexpr double kCoarsestUnit_m = 0.1;
 // turn that is not fit.
 RecordingCorrection readCorrection(const CameraCorrection& correction);
 
+// Whether openRecording() is worth trying, by the names that are there.
+bool looksLikeRecording(const std::filesystem::path& path);
+
 // Opens a recording and checks its header and index; throws Error (missing folder, bad JSON, intrinsics that are NaN,
 // zero or negative, no frame at all, times out of order; a correction whose camera takes pictures of another size).
 // Pictures are opened one by one, in read().

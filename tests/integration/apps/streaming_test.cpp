@@ -148,6 +148,81 @@ TEST_F(Streaming, ServePosesABodyOverHttp) {
   EXPECT_EQ(program.interrupt(), 0);
 }
 
+// A client of the page: its stream, and what it gets over HTTP.
+class PageClient {
+ public:
+  explicit PageClient(const std::string& port)
+      : port_(static_cast<std::uint16_t>(std::stoi(port))),
+        host_("127.0.0.1:" + std::to_string(port_)),
+        stream_(port_) {
+    stream_.send("GET /stream HTTP/1.1\r\nHost: " + host_ +
+                 "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    (void)stream_.receive(10);  // it is a stream from here on
+  }
+  void say(const std::string& text) const {
+    std::string frame = "\x81";
+    frame += static_cast<char>(0x80 | text.size());
+    stream_.send(frame + std::string(4, '\0') + text);
+  }
+  [[nodiscard]] std::string get(const std::string& target) const {
+    const Connection connection(port_);
+    connection.send("GET " + target + " HTTP/1.1\r\nHost: " + host_ + "\r\nConnection: close\r\n\r\n");
+    const std::string answer = connection.receive(1 << 26);
+    return answer.substr(answer.find("\r\n\r\n") + 4);
+  }
+  // Once the recording that was opened is tracked.
+  [[nodiscard]] nlohmann::json job() const {
+    for (int i = 0; i < 600; ++i) {
+      const nlohmann::json job = nlohmann::json::parse(get("/recordings"))["job"];
+      if (job["state"] == "done" || job["state"] == "failed") return job;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    ADD_FAILURE() << "the recording was not tracked";
+    return {};
+  }
+
+ private:
+  std::uint16_t port_;
+  std::string host_;
+  Connection stream_;
+};
+
+TEST_F(Streaming, ThePageExportsWhatReplayWrites) {
+  copyExcerpt("squat", 20, folder_ / "mine/squat");
+  const BackgroundProgram program("serve --port 0 --folder " + at("mine"), folder_ / "errors");
+  const PageClient client(program.waitFor("http://127.0.0.1:"));
+  client.say(R"({"type":"open","recording":"folder/squat"})");
+  const nlohmann::json job = client.job();
+  ASSERT_EQ(job["state"], "done") << job;
+  std::string options;
+  std::filesystem::create_directories(folder_ / "out");
+  for (const auto& file : job["files"]) {
+    options += " --" + file["format"].get<std::string>() + " " + at("out/" + file["name"].get<std::string>());
+  }
+  const ProgramResult result = runProgram("replay " + at("mine/squat") + options);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(job["files"].size(), 9U);
+  for (const auto& file : job["files"]) {
+    const std::string name = file["name"];
+    const std::string sent = client.get("/export?file=" + name);
+    EXPECT_EQ(sent.size(), file["bytes"].get<std::size_t>()) << name;
+    EXPECT_TRUE(sent == readBytes(folder_ / ("out/" + name))) << name;
+  }
+  EXPECT_EQ(program.interrupt(), 0);
+}
+
+TEST_F(Streaming, LiveWithoutACameraOffersRecordings) {
+  EXPECT_EQ(runProgram("live").exit_code, 2);
+  const BackgroundProgram program("live --view --view-port 0 --view-folder " + at("mine"), folder_ / "errors");
+  const PageClient client(program.waitFor("http://127.0.0.1:"));
+  EXPECT_EQ(nlohmann::json::parse(client.get("/cameras"))["waits"], true);
+  EXPECT_EQ(nlohmann::json::parse(client.get("/recordings"))["recordings"].size(), 3U);
+  client.say(R"({"type":"open","recording":"bundled/walk"})");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_EQ(program.interrupt(), 0) << "while a recording is tracked";
+}
+
 TEST_F(Streaming, PageDoesNotChangeFiles) {
   replay("--joints " + at("plain.csv"));
   const BackgroundProgram program(

@@ -6,7 +6,8 @@
 
 #include "apps/ik/bones.h"
 #include "apps/ik/routes.h"
-#include "apps/view/live_page.h"
+#include "apps/track/page_tracking.h"
+#include "apps/track/start_page.h"
 #include "libtracker/core/json_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -14,6 +15,7 @@ namespace depthmocap {
 
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using Names = std::set<std::string>;
 
@@ -74,12 +76,19 @@ TEST(OpenApi, HasEveryFieldOfAnAnswer) {
 }
 
 TEST(OpenApi, HasEveryEndpoint) {
-  const TemporaryFolder folder;
-  for (const char* file :
-       {"index.html", "view.css", "scene.js", "view.js", "three.min.js", "OrbitControls.js", "GLTFLoader.js"}) {
-    writeBytes(folder / file, "x");
+  const TemporaryFolder share;
+  fs::create_directories(share / "view");
+  for (const fs::directory_entry& file : fs::directory_iterator(fs::path(DEPTHMOCAP_SOURCE_DIR) / "apps/view/page")) {
+    writeBytes(share.path() / "view" / file.path().filename(), "x");
   }
-  LivePage page({.port = 0}, folder.path(), {"idle", "no source", {}});
+  for (const char* file : {"three.min.js", "OrbitControls.js", "GLTFLoader.js"}) {
+    writeBytes(share.path() / "view" / file, "x");
+  }
+  setenv("DEPTHMOCAP_SHARE", share.path().c_str(), 1);
+  PageTracking tracking{ReplayOptions{}};
+  StartPage start({.port = 0}, {}, StartPage::Cameras::Listed, tracking);
+  unsetenv("DEPTHMOCAP_SHARE");
+  LivePage& page = start.page();
   addIkRoutes(page.server(), requests());
   std::set<std::pair<std::string, std::string>> served;
   for (auto [path, method] : page.server().routes()) {

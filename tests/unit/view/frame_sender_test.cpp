@@ -21,16 +21,16 @@ int frameOf(const std::string& message) {
   return nlohmann::json::parse(message.substr(sizeof length, length))["frame"];
 }
 
-TrackedFrame frameNumber(int number) {
+void send(FrameSender& sender, int number) {
   TrackedFrame tracked;
   tracked.frame = number;
-  return tracked;
+  const TrackedFrame* const people[] = {&tracked};
+  sender.send(DepthImage(64, 48, 1.5F), people, {});
 }
 
 // A client that is slow to take a message holds up neither the tracker nor the newest frame.
 TEST(FrameSender, SlowDeliveryDropsFramesAndNeverWaits) {
   const CameraModel camera{64, 48, 60, 60, 31.5, 23.5};
-  const DepthImage depth(64, 48, 1.5F);
   std::promise<void> first_taken;
   std::promise<void> go_on;
   std::promise<void> last_taken;
@@ -43,9 +43,9 @@ TEST(FrameSender, SlowDeliveryDropsFramesAndNeverWaits) {
     }
     if (delivered.back() == 100) last_taken.set_value();
   });
-  sender.send(depth, frameNumber(1), {});
+  send(sender, 1);
   ASSERT_EQ(first_taken.get_future().wait_for(kPatience), std::future_status::ready);
-  for (int i = 2; i <= 100; ++i) sender.send(depth, frameNumber(i), {});  // would never end if it waited
+  for (int i = 2; i <= 100; ++i) send(sender, i);  // would never end if it waited
   go_on.set_value();
   ASSERT_EQ(last_taken.get_future().wait_for(kPatience), std::future_status::ready);
   EXPECT_EQ(delivered, (std::vector<int>{1, 100}));
@@ -56,7 +56,7 @@ TEST(FrameSender, EndsWithAFrameUnderWay) {
   std::atomic<int> delivered{0};
   for (int i = 0; i < 20; ++i) {
     FrameSender sender(camera, [&](const std::string&) { ++delivered; });
-    sender.send(DepthImage(64, 48, 1.5F), frameNumber(i), {});
+    send(sender, i);
   }
   EXPECT_LE(delivered, 20);
 }

@@ -1,6 +1,8 @@
 #include <Eigen/Geometry>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +27,12 @@ TEST(ViewCommand, ReadsEveryCommand) {
   EXPECT_EQ(lock.action, ViewAction::Lock);
   EXPECT_EQ(lock.x, 0.5);
   EXPECT_EQ(lock.y, 0.25);
+  const ViewCommand open = parseViewCommand(R"({"type":"open","recording":"folder/take-001","people":3})");
+  EXPECT_EQ(open.action, ViewAction::Open);
+  EXPECT_EQ(open.recording, "folder/take-001");
+  EXPECT_EQ(open.people, 3);
+  EXPECT_EQ(parseViewCommand(R"({"type":"open","recording":"x"})").people, 0);
+  EXPECT_EQ(parseViewCommand(R"({"type":"close"})").action, ViewAction::Close);
 }
 
 TEST(ViewCommand, NamesWhatIsWrong) {
@@ -32,7 +40,9 @@ TEST(ViewCommand, NamesWhatIsWrong) {
   for (const std::string text :
        {"", "x", "[]", "3", "{}", R"({"type":5})", R"({"type":"format disk"})", R"({"type":"seek"})",
         R"({"type":"seek","frame":-1})", R"({"type":"seek","frame":1e300})", R"({"type":"seek","frame":"1"})",
-        R"({"type":"speed","value":0})", R"({"type":"speed","value":null})", R"({"type":"lock","x":2,"y":0})"}) {
+        R"({"type":"speed","value":0})", R"({"type":"speed","value":null})", R"({"type":"lock","x":2,"y":0})",
+        R"({"type":"open"})", R"({"type":"open","recording":7})", R"({"type":"open","recording":"x","people":0})",
+        R"({"type":"open","recording":"x","people":7})", R"({"type":"open","recording":"x","people":"1"})"}) {
     EXPECT_NE(errorOf([&] { parseViewCommand(text); }).find("message"), std::string::npos) << text;
   }
   EXPECT_NE(errorOf([&] { parseViewCommand(deep); }), "");
@@ -59,7 +69,7 @@ std::string messageOf(ViewFrameEncoder& encoder, const DepthImage& depth, const 
                       const TrackedFrame& tracked, const ViewFigures& figures) {
   ViewPicture picture;
   encoder.pick(depth, labels, picture);
-  return encoder.encode(picture, tracked, figures);
+  return encoder.encode(picture, std::span(&tracked, 1), figures);
 }
 
 TEST(ViewFrame, HoldsPictureAndPose) {
@@ -128,6 +138,44 @@ TEST(ViewFrame, LostFrameHasNoPose) {
   EXPECT_EQ(head["state"], "lost");
   EXPECT_FALSE(head.contains("joints"));
   EXPECT_EQ(head["image"]["step"], 1);
+}
+
+json headOf(const std::string& message) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, message.data(), 4);
+  return json::parse(message.substr(4, length));
+}
+
+TrackedFrame personNumber(int number, TrackState state, double x) {
+  TrackedFrame tracked;
+  tracked.person = number;
+  tracked.state = state;
+  tracked.joints_camera.row(0).setConstant(x);
+  tracked.confidence.setConstant(0.5);
+  return tracked;
+}
+
+TEST(ViewFrame, HoldsEverybodyWhoIsThere) {
+  const CameraModel camera{320, 240, 262, 262, 159.5, 119.5};
+  const std::vector<TrackedFrame> people = {personNumber(1, TrackState::Lost, 0),
+                                            personNumber(2, TrackState::Tracking, 1),
+                                            personNumber(3, TrackState::Coasting, 2)};
+  ViewFrameEncoder encoder(camera);
+  ViewPicture picture;
+  encoder.pick(DepthImage(320, 240, 1.0F), PartImage{}, picture);
+  const json head = headOf(encoder.encode(picture, people, {}));
+  EXPECT_EQ(head["state"], "lost") << "the fields of the frame itself are those of the first";
+  EXPECT_FALSE(head.contains("joints"));
+  ASSERT_EQ(head["people"].size(), 2U);
+  EXPECT_EQ(head["people"][0]["person"], 2);
+  EXPECT_EQ(head["people"][0]["joints"][5][0], 1.0);
+  EXPECT_EQ(head["people"][1]["state"], "coasting");
+  for (const char* key : {"joints", "confidence", "root", "rotations", "markers", "stature_m"}) {
+    EXPECT_TRUE(head["people"][1].contains(key)) << key;
+  }
+  const json alone = headOf(encoder.encode(picture, std::span(people).subspan(1, 1), {}));
+  EXPECT_FALSE(alone.contains("people"));
+  EXPECT_EQ(alone["joints"], head["people"][0]["joints"]);
 }
 
 }  // namespace

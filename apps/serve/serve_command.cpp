@@ -9,7 +9,8 @@
 #include "apps/commands.h"
 #include "apps/ik/routes.h"
 #include "apps/terminal/stop_request.h"
-#include "apps/view/live_page.h"
+#include "apps/track/page_tracking.h"
+#include "apps/track/start_page.h"
 #include "apps/view/view_options.h"
 
 namespace depthmocap {
@@ -28,17 +29,21 @@ void serve(const ServeOptions& options) {
   WebServerConfig config = webServerConfig(options.view);
   config.workers = options.threads;
   config.allowed_origins = options.allowed_origins;
-  LivePage page(config, pageFolder(), {"idle", "no source", {}});
-  addIkRoutes(page.server(), ik);
-  page.start();
-  std::cerr << "serving " << page.server().url() << std::endl;
+  ReplayOptions replay;
+  replay.track.threads = options.threads;
+  PageTracking tracking(replay);
+  StartPage start(config, options.view, StartPage::Cameras::Listed, tracking);
+  addIkRoutes(start.page().server(), ik);
+  start.page().start();
+  std::cerr << "serving " << start.page().server().url() << std::endl;
   while (!StopRequest::made()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
 }  // namespace
 
 void addServeCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("serve", "Serves HTTP and the live page, until Ctrl-C.");
+  CLI::App* command = app.add_subcommand(
+      "serve", "Serves a page to begin with, which replays recordings, and poses over HTTP, until Ctrl-C.");
   const auto options = std::make_shared<ServeOptions>();
   command->add_option("--port", options->view.port, "Port; 0: any that is free")
       ->check(CLI::Range(0, 65535))
@@ -53,7 +58,9 @@ void addServeCommand(CLI::App& app) {
       ->add_option("--allow-origin", options->allowed_origins,
                    "Page of another origin that may use the server, as http://localhost:3000; may be repeated")
       ->type_name("ORIGIN");
-  command->add_option("--threads", options->threads, "Poses that are solved at once")
+  command->add_option("--folder", options->view.folder, "Folder whose recordings the page offers")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Poses that are solved at once; threads that track a recording")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   addIkOptions(*command, options->ik);
