@@ -27,13 +27,19 @@ struct PageFile {
   const char* type;
 };
 constexpr const char* kScript = "text/javascript; charset=utf-8";
-constexpr std::array<PageFile, 7> kFiles = {{{"/", "index.html", "text/html; charset=utf-8"},
-                                             {"/view.css", "view.css", "text/css; charset=utf-8"},
-                                             {"/scene.js", "scene.js", kScript},
-                                             {"/view.js", "view.js", kScript},
-                                             {"/three.min.js", "three.min.js", kScript},
-                                             {"/OrbitControls.js", "OrbitControls.js", kScript},
-                                             {"/GLTFLoader.js", "GLTFLoader.js", kScript}}};
+constexpr std::array<PageFile, 13> kFiles = {{{"/", "index.html", "text/html; charset=utf-8"},
+                                              {"/view.css", "view.css", "text/css; charset=utf-8"},
+                                              {"/connection.js", "connection.js", kScript},
+                                              {"/colors.js", "colors.js", kScript},
+                                              {"/figure.js", "figure.js", kScript},
+                                              {"/scene.js", "scene.js", kScript},
+                                              {"/people.js", "people.js", kScript},
+                                              {"/library.js", "library.js", kScript},
+                                              {"/view.js", "view.js", kScript},
+                                              {"/keys.js", "keys.js", kScript},
+                                              {"/three.min.js", "three.min.js", kScript},
+                                              {"/OrbitControls.js", "OrbitControls.js", kScript},
+                                              {"/GLTFLoader.js", "GLTFLoader.js", kScript}}};
 
 constexpr std::size_t kMostPageBytes = mebibytes(16);  // of a file; three.js has 1 MB
 

@@ -1,18 +1,10 @@
 "use strict";
 
 // The 3D scene: the tracker's world, metres, y up, the camera at the origin looking along -z.
-const BONES = [
-  ["pelvis", "spine"], ["spine", "neck"], ["neck", "head"],
-  ["neck", "left_shoulder"], ["left_shoulder", "left_elbow"], ["left_elbow", "left_wrist"],
-  ["neck", "right_shoulder"], ["right_shoulder", "right_elbow"], ["right_elbow", "right_wrist"],
-  ["pelvis", "left_hip"], ["left_hip", "left_knee"], ["left_knee", "left_ankle"], ["left_ankle", "left_toe"],
-  ["pelvis", "right_hip"], ["right_hip", "right_knee"], ["right_knee", "right_ankle"], ["right_ankle", "right_toe"]];
-const JOINT_RADIUS = 0.022;
-const BONE_RADIUS = 0.011;
-const MARKER_RADIUS = 0.026;
-// The first nodes of /body.glb are the bones that `rotations` of a frame turn, in this order.
-const SKIN_BONES = 20;
-const UP = new THREE.Vector3(0, 1, 0);
+const FOLLOW_S = 0.4;    // the view lags so long behind who is followed
+const JUMP_M = 1.0;      // farther than this the view jumps: another frame was chosen
+const TURN = Math.PI / 24;  // of a key
+const NEARER = 0.9;      // of a key
 
 // Whether pictures are drawn without a graphics card, where smooth edges cost more than all else.
 function drawsInSoftware() {
@@ -21,21 +13,27 @@ function drawsInSoftware() {
   return Boolean(info) && /swiftshader|llvmpipe|software/i.test(gl.getParameter(info.UNMASKED_RENDERER_WEBGL));
 }
 
+// The people of a frame who are there, or the one that the fields of the frame itself say.
+function peopleOf(frame) {
+  return frame.people || [frame];
+}
+
 class Scene {
-  constructor(parent, jointNames, partColors, bodyStature) {
+  constructor(parent) {
     this.parent = parent;
-    this.jointIndex = new Map(jointNames.map((name, i) => [name, i]));
-    this.colors = partColors.map((c) => c.map((v) => v / 255));
-    this.pointColors = partColors;
-    this.bodyStature = bodyStature;
+    this.shown = { skeleton: true, markers: true, surface: false, cloud: true };
+    this.figures = new Map();  // by person
+    this.follow = true;
+    this.changed = true;       // since it was last drawn
     this.renderer = new THREE.WebGLRenderer({ antialias: !drawsInSoftware() });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    parent.appendChild(this.renderer.domElement);
+    parent.prepend(this.renderer.domElement);
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0x14171c);
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.05, 50);
-    this.changed = true;  // since it was last drawn
     this.orbit = new THREE.OrbitControls(this.camera, this.renderer.domElement);
+    this.orbit.enableKeys = false;            // keys.js
+    this.renderer.domElement.tabIndex = -1;  // the section that holds it has the focus
     this.orbit.addEventListener("change", () => { this.changed = true; });
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x39404d, 0.85));
     const sun = new THREE.DirectionalLight(0xffffff, 0.55);
@@ -44,45 +42,42 @@ class Scene {
     this.grid = new THREE.GridHelper(10, 20, 0x4a5362, 0x2e343e);
     this.grid.position.set(0, -1, -2.5);
     this.scene.add(this.grid);
-    this.addFigure(jointNames);
     this.cloud = null;
-    this.body = null;
     this.placed = false;
+    new ResizeObserver(() => this.resize()).observe(parent);
     this.resize();
-    window.addEventListener("resize", () => this.resize());
     this.home();
   }
 
-  addFigure(jointNames) {
-    this.skeleton = new THREE.Group();
-    this.joints = jointNames.map(() => {
-      const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(JOINT_RADIUS, 16, 12),
-        new THREE.MeshLambertMaterial({ color: 0xffffff }));
-      this.skeleton.add(ball);
-      return ball;
-    });
-    this.bones = BONES.map(([from]) => {
-      const color = from.startsWith("left") ? 0x5ab0ff : from.startsWith("right") ? 0xff8a65 : 0xe8e8e8;
-      const bone = new THREE.Mesh(new THREE.CylinderBufferGeometry(BONE_RADIUS, BONE_RADIUS, 1, 10),
-        new THREE.MeshLambertMaterial({ color }));
-      this.skeleton.add(bone);
-      return bone;
-    });
-    this.scene.add(this.skeleton);
-    this.markers = new THREE.Group();
-    this.markerBalls = this.colors.slice(1).map((c) => {
-      const ball = new THREE.Mesh(new THREE.OctahedronBufferGeometry(MARKER_RADIUS),
-        new THREE.MeshLambertMaterial({ color: new THREE.Color(c[0], c[1], c[2]) }));
-      this.markers.add(ball);
-      return ball;
-    });
-    this.scene.add(this.markers);
+  // Another source: its people and colours.
+  begin(hello) {
+    for (const figure of this.figures.values()) figure.remove();
+    this.figures.clear();
+    if (this.cloud) this.cloud.geometry.setDrawRange(0, 0);
+    this.hello = hello;
+    this.pointColors = labelColors(hello);
+    this.placed = false;
+    this.target = null;
+    this.changed = true;
   }
 
   home() {
-    const z = this.target ? this.target.z : -2.5;
-    this.orbit.target.set(this.target ? this.target.x : 0, this.target ? this.target.y : 0, z);
-    this.camera.position.set(this.orbit.target.x + 0.5, this.orbit.target.y + 0.45, z + 2.9);
+    const target = this.target || new THREE.Vector3(0, 0, -2.5);
+    // The whole body is seen in pictures that are higher than wide, too.
+    const back = this.camera.aspect < 0.8 ? 3.6 : 2.9;
+    this.orbit.target.copy(target);
+    this.camera.position.set(target.x + 0.5, target.y + 0.45, target.z + back);
+    this.orbit.update();
+  }
+
+  // By keys: radians about the person, and a factor of the distance.
+  move(turn, tilt, factor) {
+    const offset = this.camera.position.clone().sub(this.orbit.target);
+    const place = new THREE.Spherical().setFromVector3(offset);
+    place.theta += turn;
+    place.phi = Math.min(Math.PI - 0.05, Math.max(0.05, place.phi + tilt));
+    place.radius = Math.min(20, Math.max(0.3, place.radius * factor));
+    this.camera.position.setFromSpherical(place).add(this.orbit.target);
     this.orbit.update();
   }
 
@@ -94,7 +89,7 @@ class Scene {
     this.changed = true;
   }
 
-  // Pixels with a measurement as points; the actor's in the colours of their parts.
+  // Pixels with a measurement as points; people's in the colours of their labels.
   showCloud(image, depth, labels) {
     const count = image.width * image.height;
     if (!this.cloud || this.cloud.count !== count) this.makeCloud(count);
@@ -108,9 +103,9 @@ class Scene {
         positions[3 * n] = (x * image.step - image.cx) / image.fx * z;
         positions[3 * n + 1] = fy * z;
         positions[3 * n + 2] = -z;
-        const part = labels[i];
-        if (part > 0 && part < this.colors.length) {
-          colors.set(this.pointColors[part], 4 * n);
+        const label = labels[i];
+        if (label > 0 && label < this.pointColors.length) {
+          colors.set(this.pointColors[label], 4 * n);
         } else {
           colors.fill(255 * Math.max(0.12, 0.42 - 0.05 * z), 4 * n, 4 * n + 3);
         }
@@ -135,78 +130,85 @@ class Scene {
     const material = new THREE.PointsMaterial({ size: 0.011, vertexColors: THREE.VertexColors });
     const points = new THREE.Points(geometry, material);
     points.frustumCulled = false;
-    points.visible = this.cloud ? this.cloud.points.visible : this.cloudVisible !== false;
+    points.visible = this.shown.cloud;
     this.scene.add(points);
     this.cloud = { count, positions, colors, geometry, points };
   }
 
-  showFigure(frame) {
-    const there = frame.joints !== undefined;
-    this.skeleton.visible = there && this.skeletonVisible !== false;
-    if (this.body) this.body.scene.visible = there && this.surfaceVisible === true;
+  // `chosen`: number of the person whom the view follows.
+  showFrame(frame, chosen) {
+    if (this.shown.cloud) this.showCloud(frame.image, frame.depth, frame.labels);
     this.grid.position.y = frame.floor_y;
-    if (!there) return;
-    const places = frame.joints.map((p) => new THREE.Vector3(p[0], p[1], p[2]));
-    this.target = places[0];
-    if (!this.placed) {
-      this.placed = true;
-      this.home();
+    const people = peopleOf(frame);
+    const present = new Set();
+    for (const person of people) {
+      const number = person.person || 1;
+      present.add(number);
+      this.figureOf(number).show(person, this.shown);
     }
-    places.forEach((p, j) => {
-      this.joints[j].position.copy(p);
-      const c = frame.confidence[j];
-      this.joints[j].material.color.setRGB(1 - 0.7 * c, 0.35 + 0.6 * c, 0.35);
-    });
-    BONES.forEach(([from, to], b) => {
-      const a = places[this.jointIndex.get(from)];
-      const along = places[this.jointIndex.get(to)].clone().sub(a);
-      const length = along.length();
-      this.bones[b].position.copy(a).addScaledVector(along, 0.5);
-      this.bones[b].scale.set(1, length, 1);
-      this.bones[b].quaternion.setFromUnitVectors(UP, along.divideScalar(Math.max(length, 1e-6)));
-    });
-    this.poseBody(frame);
+    for (const [number, figure] of this.figures) if (!present.has(number)) figure.hide();
+    const there = people.filter((person) => person.joints);
+    const followed = there.find((person) => (person.person || 1) === chosen) || there[0];
+    if (followed) this.followTo(new THREE.Vector3(...followed.joints[0]));
+    this.changed = true;
   }
 
-  showMarkers(markers) {
-    this.markerBalls.forEach((ball) => { ball.visible = false; });
-    for (const [part, x, y, z, confidence] of markers) {
-      const ball = this.markerBalls[part - 1];
-      ball.visible = true;
-      ball.position.set(x, y, z);
-      ball.scale.setScalar(0.5 + 0.8 * confidence);
+  figureOf(number) {
+    if (!this.figures.has(number)) {
+      const color = this.hello.people > 1 ? this.hello.person_colors[number - 1] : null;
+      this.figures.set(number, new Figure(this.scene, this.hello, color));
+      this.dress();
     }
+    return this.figures.get(number);
+  }
+
+  // To the side and in depth; up and down the person moves in the picture.
+  followTo(place) {
+    const before = this.target;
+    this.target = place;
+    if (!this.placed) {
+      this.placed = true;
+      this.followedAt = performance.now();
+      this.home();
+      return;
+    }
+    const now = performance.now();
+    const share = 1 - Math.exp(-(now - this.followedAt) / (1000 * FOLLOW_S));
+    this.followedAt = now;
+    if (!this.follow) return;
+    const way = place.clone().sub(this.orbit.target).setY(0);
+    const jumps = before && before.distanceTo(place) > JUMP_M;
+    if (!jumps) way.multiplyScalar(share);
+    this.orbit.target.add(way);
+    this.camera.position.add(way);
+    this.orbit.update();
+  }
+
+  setShown(what, on) {
+    this.shown[what] = on;
+    if (this.cloud) this.cloud.points.visible = this.shown.cloud;
+    for (const figure of this.figures.values()) {
+      figure.skeleton.visible = this.shown.skeleton;
+      figure.markers.visible = this.shown.markers;
+      if (figure.body) figure.body.scene.visible = this.shown.surface;
+    }
+    this.dress();
+    this.changed = true;
   }
 
   // The body is fetched when it is first wanted.
-  setSurfaceVisible(visible, url) {
-    this.surfaceVisible = visible;
-    if (this.body) this.body.scene.visible = visible;
-    if (!visible || this.body || this.loading) return;
-    this.loading = true;
-    new THREE.GLTFLoader().load(url, (gltf) => {
-      const bones = [];
-      gltf.scene.traverse((node) => {
-        if (!node.isSkinnedMesh) return;
-        node.frustumCulled = false;
-        node.material.transparent = true;
-        node.material.opacity = 0.8;
-        bones.push(...node.skeleton.bones.slice(0, SKIN_BONES));
-      });
-      this.body = { scene: gltf.scene, bones };
-      this.scene.add(gltf.scene);
-      if (this.lastPose) this.poseBody(this.lastPose);
-      this.changed = true;
-    });
+  async dress() {
+    if (!this.shown.surface) return;
+    if (!this.bodyBytes) {
+      this.bodyBytes = fetch(withToken("/body.glb")).then((response) => response.arrayBuffer());
+    }
+    const bytes = await this.bodyBytes;
+    for (const figure of this.figures.values()) figure.wear(bytes, () => { this.changed = true; });
   }
 
-  poseBody(frame) {
-    this.lastPose = frame;
-    if (!this.body) return;
-    const { bones } = this.body;
-    frame.rotations.forEach((r, b) => bones[b].quaternion.set(r[0], r[1], r[2], r[3]));
-    bones[0].position.set(frame.root[0], frame.root[1], frame.root[2]);
-    bones[0].scale.setScalar(frame.stature_m / this.bodyStature);
+  // Whether a body is shown.
+  wearsBody() {
+    return [...this.figures.values()].some((figure) => figure.body !== null);
   }
 
   render() {

@@ -1,29 +1,28 @@
 "use strict";
 
 const byId = (id) => document.getElementById(id);
-const token = new URLSearchParams(location.search).get("token");
-const withToken = (path) => token ? `${path}?token=${encodeURIComponent(token)}` : path;
 const STAGES = ["segment", "classify", "markers", "prior", "solve", "total"];
 const ROOM_COLOR = [150, 158, 170];
 const SLOW_MS = 33;
 const FIGURES_MS = 150;
 const LOST_MS = 2000;   // before the page says what to do about it
 const LOST_TEXT = "Nobody is tracked. Stand 2 to 4 m before the camera, the whole body in view.";
+const COMMANDS = ["record", "calibrate", "reset", "lock"];
 
 let hello = null;
 let scene = null;
-let socket = null;
 let newest = null;      // the frame that is drawn next
+let playback = null;    // of the newest frame
 let dragging = false;   // the player's knob
 let picking = false;    // a person to lock on
-let playing = true;
 let recording = false;
 let unconfirmed = 0;    // frames that came since the last "ready"
 let figuresShown = 0;   // when the numbers last changed: faster than eyes read is wasted
 let updates = [];
 let noticeTimer = 0;
-let lostSince = null;   // when the actor was lost [ms]
+let lostSince = null;   // when everybody was lost [ms]
 const bars = new Map();
+const cross = { x: 0.5, y: 0.5 };  // in the depth picture, for the keyboard
 
 function say(text, isError) {
   byId("message").textContent = text;
@@ -32,19 +31,25 @@ function say(text, isError) {
 
 // In large letters over the scene, for people who stand before the camera; for some seconds, or until the next one.
 function notice(text, kind, seconds) {
-  const box = byId("notice");
   clearTimeout(noticeTimer);
-  box.hidden = text === "";
-  box.textContent = text;
-  box.className = kind;
+  byId("notice").hidden = text === "";
+  byId("notice").className = kind;
+  byId("notice-text").textContent = text;
+  byId("try-now").hidden = kind !== "error away";
   if (seconds) noticeTimer = setTimeout(() => notice("", ""), 1000 * seconds);
 }
 
+function setState(text, kind) {
+  byId("state").textContent = text;
+  byId("state").className = `state ${kind || text}`;
+}
+
 function send(message) {
-  if (socket && socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+  return connection.send(JSON.stringify(message));
 }
 
 function makeBars(parent, names) {
+  parent.replaceChildren();
   for (const name of names) {
     const row = document.createElement("div");
     row.className = "bar";
@@ -69,18 +74,29 @@ function setBar(name, share, text) {
 }
 
 function onHello(message) {
-  if (hello === null) {
+  const first = hello === null;
+  hello = message;
+  if (first) {
     makeBars(byId("stages"), STAGES);
     makeBars(byId("confidence"), message.joints);
-    scene = new Scene(byId("scene"), message.joints, message.part_colors, message.body_stature_m);
+    scene = new Scene(byId("scene"));
     requestAnimationFrame(draw);
   }
-  hello = message;
+  newest = null;
+  playback = null;
+  hello.labelColors = labelColors(hello);
+  scene.begin(hello);
+  people.begin(hello);
+  library.begin(hello);
+  connection.expectsFrames = hello.mode !== "idle";
   byId("source").textContent = message.source;
   byId("source").title = message.source;
   byId("player").hidden = message.mode !== "replay";
-  for (const name of ["record", "calibrate", "reset", "lock"]) byId(name).disabled = !message.controls.includes(name);
-  if (message.mode === "idle") say("No camera and no recording: start `depthmocap live --view` or `replay --view`.");
+  byId("commands").hidden = !COMMANDS.some((name) => message.controls.includes(name));
+  byId("calibrating").hidden = true;
+  for (const name of COMMANDS) byId(name).disabled = !message.controls.includes(name);
+  if (hello.mode === "idle") setState("ready", "tracking");
+  else setState("waiting for pictures", "waiting");
 }
 
 // JSON, then the depth picture, then the labels (docs/reference/stream.md).
@@ -106,7 +122,7 @@ function drawPicture({ image, depth, labels }) {
     data[k + 3] = 255;
     if (depth[i] === 0) continue;
     const light = Math.max(0.15, 1.1 - depth[i] / 5500);
-    const color = labels[i] > 0 ? hello.part_colors[labels[i]] : ROOM_COLOR;
+    const color = (labels[i] > 0 && hello.labelColors[labels[i]]) || ROOM_COLOR;
     data[k] = color[0] * light;
     data[k + 1] = color[1] * light;
     data[k + 2] = color[2] * light;
@@ -115,33 +131,33 @@ function drawPicture({ image, depth, labels }) {
 }
 
 function showFigures(frame) {
-  const state = byId("state");
-  state.textContent = frame.state;
-  state.className = `state ${frame.state}`;
+  const person = people.of(frame);
+  setState(people.stateOf(frame));
   byId("frame").textContent = frame.frame;
   byId("time").textContent = `${frame.time_s.toFixed(2)} s`;
   byId("fps").textContent = `${frame.fps.toFixed(0)} fps`;
   byId("latency").textContent = frame.latency_ms > 0 ? `${frame.latency_ms.toFixed(0)} ms` : "–";
-  byId("stature").textContent = frame.joints ? `${frame.stature_m.toFixed(2)} m` : "–";
+  byId("stature").textContent = person.joints ? `${person.stature_m.toFixed(2)} m` : "–";
   for (const stage of STAGES) {
     setBar(`stages.${stage}`, frame.ms[stage] / SLOW_MS, `${frame.ms[stage].toFixed(1)} ms`);
   }
+  byId("confidence-title").textContent = hello.people > 1 ? `Confidence, person ${people.chosen}` : "Confidence";
   hello.joints.forEach((name, j) => {
-    const c = frame.confidence ? frame.confidence[j] : 0;
+    const c = person.confidence ? person.confidence[j] : 0;
     setBar(`confidence.${name}`, c, c.toFixed(2));
   });
+  if (frame.people) people.show(frame);
   recording = frame.recording;
   byId("record").classList.toggle("on", recording);
   byId("record").textContent = recording ? "Stop recording" : "Record";
 }
 
-function showPlayer(playback) {
+function showPlayer() {
   if (!playback) return;
-  playing = playback.playing;
-  byId("play").textContent = playing ? "Pause" : "Play";
+  byId("play").textContent = playback.playing ? "Pause" : "Play";
   byId("seek").max = Math.max(0, playback.tracked - 1);
   if (!dragging) byId("seek").value = playback.index;
-  const more = playback.tracked < playback.total ? ` (tracking, of ${playback.total})` : "";
+  const more = playback.tracked < playback.total ? ` of ${playback.total}` : "";
   byId("place").textContent = `${playback.index + 1} / ${playback.tracked}${more}`;
 }
 
@@ -150,19 +166,17 @@ function draw() {
   if (newest) {
     const frame = newest;
     newest = null;
-    if (byId("show-cloud").checked) scene.showCloud(frame.image, frame.depth, frame.labels);
-    scene.showMarkers(frame.markers);
-    scene.showFigure(frame);
+    playback = frame.playback;
+    scene.showFrame(frame, people.chosen);
     drawPicture(frame);
-    for (; unconfirmed > 0; --unconfirmed) socket.send("ready");
+    for (; unconfirmed > 0; --unconfirmed) connection.send("ready");
     const now = performance.now();
-    if (now - figuresShown > FIGURES_MS || frame.state !== byId("state").textContent) {
+    if (now - figuresShown > FIGURES_MS || people.stateOf(frame) !== byId("state").textContent) {
       figuresShown = now;
       showFigures(frame);
       adviseLost(frame, now);
     }
-    showPlayer(frame.playback);
-    scene.changed = true;
+    showPlayer();
     updates.push(now);
     updates = updates.filter((t) => now - t < 2000);
     byId("updates").textContent = `${(updates.length / 2).toFixed(0)} fps`;
@@ -173,88 +187,116 @@ function draw() {
 
 function onEvent({ what, text }) {
   say(text, what === "failure");
-  if (what === "calibrate") notice(text, "");
+  byId("calibrating").hidden = what !== "calibrate" && (byId("calibrating").hidden || what !== "record");
+  if (what === "calibrate") {
+    notice("", "");
+    byId("calibrating-text").textContent = text;
+  }
   if (what === "calibrated") notice(text, "done", 6);
   if (what === "failure") notice(text, "error", 8);
+  if (what === "camera_lost") notice(text, "error");
+  if (what === "camera_back") notice(text, "done", 4);
+  if (what === "record") library.load();
 }
 
 function onText(message) {
   if (message.type === "hello") onHello(message);
   if (message.type === "event") onEvent(message);
   if (message.type === "error") say(message.error, true);
+  if (message.type === "job") library.onJob(message);
 }
 
 // A camera that sees nobody for a while.
 function adviseLost(frame, now) {
   if (hello.mode !== "live") return;
-  const lost = frame.state === "lost";
+  const lost = people.stateOf(frame) === "lost";
   if (lost && lostSince === null) lostSince = now;
-  if (lost && now - lostSince > LOST_MS && byId("notice").hidden) notice(LOST_TEXT, "");
+  const silent = byId("notice").hidden && byId("calibrating").hidden;
+  if (lost && now - lostSince > LOST_MS && silent) notice(LOST_TEXT, "");
   if (lost) return;
   lostSince = null;
-  if (byId("notice").textContent === LOST_TEXT) notice("", "");
+  if (byId("notice-text").textContent === LOST_TEXT) notice("", "");
 }
 
-function connect() {
-  const scheme = location.protocol === "https:" ? "wss" : "ws";
-  socket = new WebSocket(`${scheme}://${location.host}${withToken("/stream")}`);
-  socket.binaryType = "arraybuffer";
-  socket.onmessage = ({ data }) => {
-    if (typeof data === "string") onText(JSON.parse(data));
-    else if (hello) {
-      newest = parseFrame(data);
-      ++unconfirmed;
-    }
-  };
-  socket.onclose = () => {
-    unconfirmed = 0;
-    newest = null;
-    byId("state").textContent = "no connection";
-    byId("state").className = "state lost";
-    notice("No connection to the program; trying again.", "error", 3);
-    setTimeout(connect, 1000);
-  };
+function onLost({ seconds, why }) {
+  unconfirmed = 0;
+  newest = null;
+  connection.expectsFrames = false;
+  setState("no connection", "lost");
+  byId("calibrating").hidden = true;
+  notice(`${why} ${seconds > 0 ? `Trying again in ${seconds} s.` : "Trying again."}`, "error away");
 }
 
-byId("play").onclick = () => send({ type: playing ? "pause" : "play" });
+function onOpen(again) {
+  unconfirmed = 0;
+  notice(again ? "Connected again." : "", "done", 3);
+}
+
+function pick(on) {
+  picking = on;
+  byId("picture-box").classList.toggle("picking", on);
+  byId("lock").classList.toggle("on", on);
+  byId("cross").hidden = true;
+  say(on ? "Click the person in the depth picture, or go there with the arrows and Enter; Escape: none." : "");
+  if (!on) return;
+  byId("picture").tabIndex = 0;
+  byId("picture").focus();
+  byId("picture").scrollIntoView({ block: "nearest" });
+}
+
+function moveCross(dx, dy) {
+  cross.x = Math.min(1, Math.max(0, cross.x + dx));
+  cross.y = Math.min(1, Math.max(0, cross.y + dy));
+  byId("cross").hidden = false;
+  byId("cross").style.left = `${100 * cross.x}%`;
+  byId("cross").style.top = `${100 * cross.y}%`;
+}
+
+function lockAt(x, y) {
+  pick(false);
+  byId("picture").removeAttribute("tabindex");
+  byId("lock").focus();
+  send({ type: "lock", x, y });
+}
+
+function seekTo(index) {
+  send({ type: "seek", frame: Math.min(Math.max(0, index), Number(byId("seek").max)) });
+}
+
+const people = new People(byId("people"));
+const library = new Library(send, say);
+const connection = new Connection({
+  onText,
+  onFrame: (data) => {
+    if (!hello) return;
+    newest = parseFrame(data);
+    ++unconfirmed;
+  },
+  onOpen,
+  onLost,
+  onSilent: () => setState("no pictures", "coasting"),
+});
+
+byId("try-now").onclick = () => connection.tryNow();
+byId("play").onclick = () => send({ type: playback && playback.playing ? "pause" : "play" });
 byId("seek").oninput = () => {
   dragging = true;
-  send({ type: "seek", frame: Number(byId("seek").value) });
+  seekTo(Number(byId("seek").value));
 };
 byId("seek").onchange = () => { dragging = false; };
 byId("speed").onchange = () => send({ type: "speed", value: Number(byId("speed").value) });
 byId("record").onclick = () => send({ type: "record", on: recording ? 0 : 1 });
 byId("calibrate").onclick = () => send({ type: "calibrate" });
 byId("reset").onclick = () => send({ type: "reset" });
-function pick(on) {
-  picking = on;
-  byId("picture").classList.toggle("picking", on);
-  byId("lock").classList.toggle("on", on);
-  say(on ? "Click the person in the depth picture; Escape: none." : "");
-}
 byId("lock").onclick = () => pick(!picking);
 byId("picture").onclick = (event) => {
   if (!picking) return;
-  pick(false);
   const box = byId("picture").getBoundingClientRect();
-  send({ type: "lock", x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height });
+  lockAt((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
 };
-byId("show-cloud").onchange = () => {
-  scene.cloudVisible = byId("show-cloud").checked;
-  if (scene.cloud) scene.cloud.points.visible = scene.cloudVisible;
-};
-byId("show-markers").onchange = () => { scene.markers.visible = byId("show-markers").checked; };
-byId("show-skeleton").onchange = () => {
-  scene.skeletonVisible = byId("show-skeleton").checked;
-  scene.skeleton.visible = scene.skeletonVisible;
-};
-byId("show-surface").onchange = () => scene.setSurfaceVisible(byId("show-surface").checked, withToken("/body.glb"));
+for (const what of ["cloud", "markers", "skeleton", "surface"]) {
+  byId(`show-${what}`).onchange = () => scene.setShown(what, byId(`show-${what}`).checked);
+}
+byId("follow").onchange = () => { scene.follow = byId("follow").checked; };
 byId("home").onclick = () => scene.home();
-document.addEventListener("keydown", (event) => {
-  if (event.code === "Escape" && picking) pick(false);
-  if (event.code !== "Space" || event.target.tagName === "BUTTON") return;
-  event.preventDefault();
-  byId("play").click();
-});
-document.addEventListener("change", () => { if (scene) scene.changed = true; });
-connect();
+byId("help-button").onclick = () => byId("help").showModal();
