@@ -30,6 +30,7 @@ constexpr std::array<Output, 9> kOutputs = {{{"bvh", "BVH", ".bvh", &TrackOption
 
 std::vector<ExportFormat> allFormats() {
   std::vector<ExportFormat> all;
+  all.reserve(kOutputs.size());
   for (const Output& output : kOutputs) all.push_back({output.name, output.title, output.ending});
   return all;
 }

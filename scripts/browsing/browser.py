@@ -111,9 +111,9 @@ def wait_for(condition, what, seconds=90):
     sys.exit(f"check-page: {what} did not come within {seconds} s")
 
 
-def start_program(program, *arguments):
-    """The program and the address of its page."""
-    process = subprocess.Popen([program, *arguments], stderr=subprocess.PIPE, text=True)
+def start_program(program, *arguments, folder=None):
+    """The program, in a folder of its own, and the address of its page."""
+    process = subprocess.Popen([program, *arguments], stderr=subprocess.PIPE, text=True, cwd=folder)
     for line in process.stderr:
         if line.startswith(("view: ", "serving ")):
             return process, line.split()[1]

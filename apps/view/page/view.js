@@ -186,12 +186,11 @@ function draw() {
 }
 
 function onEvent({ what, text }) {
-  say(text, what === "failure");
-  byId("calibrating").hidden = what !== "calibrate" && (byId("calibrating").hidden || what !== "record");
-  if (what === "calibrate") {
-    notice("", "");
-    byId("calibrating-text").textContent = text;
-  }
+  const calibrates = what === "calibrate";
+  say(calibrates ? "" : text, what === "failure");
+  if (calibrates) notice("", "");
+  if (calibrates) byId("calibrating-text").textContent = text;
+  if (calibrates || what === "calibrated" || what === "failure") byId("calibrating").hidden = !calibrates;
   if (what === "calibrated") notice(text, "done", 6);
   if (what === "failure") notice(text, "error", 8);
   if (what === "camera_lost") notice(text, "error");

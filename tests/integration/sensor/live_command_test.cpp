@@ -71,6 +71,15 @@ TEST_F(LiveCommand, TracksOnAfterTheCableWasPulled) {
   EXPECT_GE(openRecording(folder_ / "rec")->frameCount(), 12U);
 }
 
+TEST_F(LiveCommand, TakesTheFirstCameraWhereNoneIsNamed) {
+  setenv("DEPTHMOCAP_TEST_RECORDING", (folder_ / "walk").c_str(), 1);
+  const ProgramResult result = runProgram("live --view --view-port 0 --seconds 0.3 --joints " + at("j.csv"));
+  unsetenv("DEPTHMOCAP_TEST_RECORDING");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors.find("no camera yet"), std::string::npos) << result.errors;
+  EXPECT_GT(readJointsFile(folder_ / "j.csv").size(), 3U);
+}
+
 // Starts the program on a camera that serves the recording, and ends it by a signal once the tenth frame is recorded.
 int endedBySignal(const fs::path& served, const fs::path& recording, std::vector<std::string> arguments, int number) {
   setenv("DEPTHMOCAP_TEST_RECORDING", served.c_str(), 1);
