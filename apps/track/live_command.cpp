@@ -88,7 +88,7 @@ struct LiveRun {
         models(loadModels(options.track)),
         tracker(models, source->info().camera, trackerConfig(options.track), actorOf(options.track)),
         outputs(options.track, source->info()),
-        recordings(replayOptions(options)) {
+        recordings(replayOptions(options), models) {
     if (!options.record.empty()) recorder.emplace(options.record, source->info(), source->waitsForReader());
     session.emplace(*source, tracker, recorder ? &*recorder : nullptr,
                     LiveSessionOptions{options.source.seconds, options.track.smooth});

@@ -49,7 +49,8 @@ TrackOptions withoutOutputs(TrackOptions options) {
   return options;
 }
 
-PageTracking::PageTracking(ReplayOptions options) : options_(std::move(options)) {}
+PageTracking::PageTracking(ReplayOptions options, std::optional<Models> models)
+    : options_(std::move(options)), models_(std::move(models)) {}
 
 const std::vector<ExportFormat>& PageTracking::formats() const {
   static const std::vector<ExportFormat> all = allFormats();

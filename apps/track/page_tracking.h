@@ -11,8 +11,8 @@ namespace depthmocap {
 // holds for no other; what the command writes itself is not written again.
 class PageTracking : public RecordingTracker {
  public:
-  // `options`: `recording` is empty where the command has none.
-  explicit PageTracking(ReplayOptions options);
+  // `options`: `recording` is empty where the command has none. `models`: those of the options, where they are loaded.
+  explicit PageTracking(ReplayOptions options, std::optional<Models> models = {});
 
   [[nodiscard]] const std::vector<ExportFormat>& formats() const override;
   void track(const TrackTask& task, FrameSink& watcher, const ReplayHooks& hooks) override;
@@ -21,7 +21,7 @@ class PageTracking : public RecordingTracker {
   [[nodiscard]] ReplayOptions optionsFor(const TrackTask& task) const;
 
   const ReplayOptions options_;
-  std::optional<Models> models_;  // loaded when first needed
+  std::optional<Models> models_;  // else loaded when first needed
 };
 
 // The options of a command without the outputs that it writes.

@@ -81,7 +81,7 @@ void replay(const ReplayOptions& o) {
   warn(run.reader->info().guesses);
   ReplaySession& session = run.session;
   Pace pace;
-  PageTracking recordings(o);
+  PageTracking recordings(o, models);
   std::optional<ReplayView> view;
   if (!o.track.vmc.empty() || !o.track.osc_trackers.empty()) session.addSink(pace);
   session.addSink(run.outputs);

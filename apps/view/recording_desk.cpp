@@ -93,7 +93,7 @@ void RecordingDesk::Impl::ask(const ViewCommand& command) {
     const std::lock_guard lock(mutex);
     const bool busy = job.state == "tracking" || (asked && asked->action == ViewAction::Open);
     if (command.action == ViewAction::Open && busy) {
-      throw Error("a recording is being tracked", job.name, "wait until it is done, or stop it");
+      throw Error("a recording is being tracked", "open", "wait until it is done, or stop it");
     }
     if (command.action == ViewAction::Close) cancelled = true;
     asked = command;
