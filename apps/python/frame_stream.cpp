@@ -5,10 +5,16 @@
 namespace depthmocap {
 
 FrameStream::FrameStream(Recording recording, SessionOptions options, std::size_t waiting)
-    : most_waiting_(waiting), session_(std::move(recording), heard(std::move(options))), thread_([this] { run(); }) {}
+    : most_waiting_(waiting),
+      camera_(recording.camera()),
+      session_(std::move(recording), heard(std::move(options))),
+      thread_([this] { run(); }) {}
 
 FrameStream::FrameStream(Camera camera, SessionOptions options, std::size_t waiting)
-    : most_waiting_(waiting), session_(std::move(camera), heard(std::move(options))), thread_([this] { run(); }) {}
+    : most_waiting_(waiting),
+      camera_(camera.model()),
+      session_(std::move(camera), heard(std::move(options))),
+      thread_([this] { run(); }) {}
 
 void FrameStream::close() {
   {

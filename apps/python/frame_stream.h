@@ -36,6 +36,8 @@ class FrameStream {
   };
   // Waits at most `patience`. Throws what the session threw, once all frames are taken.
   Taken take(std::chrono::milliseconds patience);
+  // Of the frames' depth, without distortion.
+  [[nodiscard]] const CameraModel& camera() const { return camera_; }
   // Ends the session; what waits can still be taken.
   void close();
 
@@ -52,6 +54,7 @@ class FrameStream {
   bool over_ = false;
   bool stopping_ = false;
   const std::size_t most_waiting_;
+  const CameraModel camera_;
   Session session_;
   std::thread thread_;
 };

@@ -117,6 +117,7 @@ void bindTracking(py::module_& module) {
       .def(
           "__iter__", [](FrameStream& stream) -> FrameStream& { return stream; }, py::return_value_policy::reference)
       .def("__next__", &next)
+      .def_property_readonly("camera", &FrameStream::camera, "The camera of the frames' depth, without distortion.")
       .def("close", &FrameStream::close, py::call_guard<py::gil_scoped_release>(),
            "Ends tracking; frames that are ready can still be taken.");
   module.def("track", &track, kTrackDoc, "recording"_a, py::kw_only(), "actor"_a = py::none(), "people"_a = 1,

@@ -35,6 +35,10 @@ from ._core import (
     write_pose,
 )
 
+# Built with a pybind11 before 2.12, arrays of numpy 2 repeat one value: here the time of the first of two frames.
+if Markers(["any"], [[[0.0, 0.0, 0.0]]] * 2).times[1] == 0:
+    raise ImportError("this build of depthmocap does not know numpy 2: pip install 'numpy<2', or build it with pybind11 2.12")
+
 __all__ = [
     "BONES", "DOFS", "JOINTS", "PARTS", "Actor", "CameraModel", "Error", "Frame", "FrameStream", "Ik", "IkSolution",
     "Markers", "Recording", "RecordingWriter", "Repaired", "Tracker", "__version__", "calibrate", "cameras", "live",

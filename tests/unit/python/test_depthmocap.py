@@ -145,6 +145,12 @@ def test_recordings_are_written(tmp_path):
         depthmocap.RecordingWriter(tmp_path / "rec", camera)
 
 
+def test_a_stream_knows_its_camera():
+    for stream in (depthmocap.track(WALK, turn=90), depthmocap.live(f"replay:{WALK}", turn=90)):
+        assert (stream.camera.width, stream.camera.height, stream.camera.fx) == (480, 640, 575.8)
+        stream.close()
+
+
 def test_live_takes_a_replay():
     seen = list(itertools.islice(depthmocap.live(f"replay:{WALK}", speed=0), 5))
     assert len(seen) == 5 and seen[-1].time_s > 0
