@@ -5,7 +5,7 @@ mcap-protobuf-support and av those that the file asks for.
     python3 recorded.py take.bag | depthmocap record --source pipe:- --out take
     python3 recorded.py take.bag | depthmocap live --source pipe:- --joints take.csv
 
-.bag   ROS 1, RealSense's up to 2.55       .db3   ROS 2, RealSense's of newer versions
+.bag   ROS 1, RealSense's of old        .db3   ROS 2, RealSense's of new
 .mcap  ROS 1 and 2, Foxglove               .mkv   Azure Kinect, Orbbec Femto
 """
 import argparse
@@ -101,7 +101,8 @@ def lens_and_unit(survey, topic, camera):
     if camera:
         lens, told_m = camera_file(camera)
         if (lens.width, lens.height) != size:
-            raise RuntimeError(f"{camera} is of {lens.width} x {lens.height}, the pictures are of {size[0]} x {size[1]}")
+            raise RuntimeError(f"{camera} is of {lens.width} x {lens.height}, "
+                               f"the pictures are of {size[0]} x {size[1]}")
         return lens, unit_m if topic.picture.form == "32FC1" or told_m is None else told_m, camera
     name = survey.lens_topic(topic)
     lens = survey.lenses.get(name)
@@ -134,7 +135,7 @@ def send(args):
             if message.topic == topic.name and message.read:
                 sender.send(message)
     except Cut as cut:
-        warnings.append(f"{path} is damaged or cut short ({cut}); what came before is sent")
+        warnings.append(f"{path} is damaged or cut short ({shown(str(cut))}); what came before is sent")
     warnings += sender.warnings()
     if sender.sent == 0:
         raise RuntimeError(f"{path} holds no whole picture" + "".join("; " + warning for warning in warnings))

@@ -12,7 +12,7 @@ DEFAULT_FPS = 30.0  # where there is one picture only
 # Of the usual time between two pictures: files with whole milliseconds differ by 3 %, a lost picture by 100 %.
 SAME_GAP = 0.1
 # Words of topics whose 16-bit pictures are no depth.
-OTHER_PICTURES = re.compile(r"(?<![a-z])(ir|infra\d*|infrared|confidence|amplitude|intensity|disparity|label|mask)(?![a-z])")
+OTHER_PICTURES = re.compile(r"(?<![a-z])(ir|infra\d*|infrared|confidence|amplitude|intensity|disparity|mask)(?![a-z])")
 # Depth as seen from another camera has holes, so the one as taken goes first.
 WARPED = re.compile(r"aligned|registered")
 
@@ -81,7 +81,7 @@ class Survey:
                 if not whole and message.time_ns - start_ns > ENOUGH_NS and self._complete():
                     break
         except Cut as cut:
-            self.problems.append(str(cut))
+            self.problems.append(shown(str(cut)))
 
     def _see(self, message):
         topic = self.topics.setdefault(message.topic, Topic(message.topic, message.type))
@@ -91,7 +91,7 @@ class Survey:
                 found = message.read()
             except ValueError as error:
                 if not topic.count:
-                    self.problems.append(f"{shown(message.topic)}: {error}")
+                    self.problems.append(shown(f"{message.topic}: {error}"))
         topic.see(message, found)
         if isinstance(found, Lens):
             self.lenses[message.topic] = found

@@ -1,4 +1,4 @@
-"""Messages of a .db3 of ROS 2 (SQLite), as RealSense's library has written them since 2.56 or so."""
+"""Messages of a .db3 of ROS 2 (SQLite), as newer versions of RealSense's library write them (2.59 does, 2.55 does not)."""
 import sqlite3
 from urllib.parse import quote
 

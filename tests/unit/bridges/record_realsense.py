@@ -12,7 +12,8 @@ lens = rs.intrinsics()
 lens.width, lens.height, lens.fx, lens.fy, lens.ppx, lens.ppy = WIDTH, HEIGHT, 60.0, 61.0, 31.5, 23.5
 lens.model, lens.coeffs = rs.distortion.brown_conrady, [0, 0, 0, 0, 0]
 stream = rs.video_stream()
-stream.type, stream.index, stream.uid, stream.width, stream.height = rs.stream.depth, 0, 1, WIDTH, HEIGHT
+stream.type, stream.index, stream.uid = rs.stream.depth, 0, 1
+stream.width, stream.height = WIDTH, HEIGHT
 stream.fps, stream.bpp, stream.fmt, stream.intrinsics = 30, 2, rs.format.z16, lens
 profile = sensor.add_video_stream(stream)
 sensor.add_read_only_option(rs.option.depth_units, 0.00025)

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-import recorded_files as files
 from recorded_files import IMAGE, INFO, Ros, small
 from test_recorded import KINDS, azure, mcap, mkv
 

@@ -142,7 +142,8 @@ def test_what_rerun_is_sent_is_what_was_tracked(take, tmp_path):
         assert abs(joints[frame.frame] - frame.joints).max() < 1e-5
 
 
-@pytest.mark.parametrize("example, package, out", [("to_mcap.py", "foxglove", ["out.mcap"]), ("to_rerun.py", "rerun", ["--save", "out.rrd"])])
+@pytest.mark.parametrize("example, package, out", [("to_mcap.py", "foxglove", ["out.mcap"]),
+                                                   ("to_rerun.py", "rerun", ["--save", "out.rrd"])])
 def test_a_source_that_is_not_there_is_one_line(example, package, out, tmp_path):
     pytest.importorskip(package)
     done = run(example, tmp_path / "missing", *out)
