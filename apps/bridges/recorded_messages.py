@@ -14,8 +14,8 @@ import numpy as np
 
 # Pixels of a picture: the limit of depthmocap, more than any depth camera has.
 MOST_PIXELS = 3840 * 2160
-# Bytes of one record or unpacked chunk of a file: twenty pictures of 3840 x 2160; damaged sizes are mostly above it.
-MOST_BYTES = 1 << 28
+# Bytes of one record or unpacked chunk of a file: four pictures of 3840 x 2160 in metres; chunks have 1 to 10 MB.
+MOST_BYTES = 1 << 27
 # How a pixel is stored, by the name that ROS and Foxglove have for it: steps of 16 bits, or metres.
 DEPTH_FORMS = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
 # The names of OpenCV's lens model, k1 k2 p1 p2 k3 k4 k5 k6, in ROS and in RealSense's files.
