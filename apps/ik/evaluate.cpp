@@ -184,7 +184,7 @@ void addIkEvaluateCommand(CLI::App& ik) {
   command->add_option("--seed", o->experiment.seed, "Of the poses, the joints and the noise")->capture_default_str();
   command->add_option("--picture", o->picture, "Draws a few poses beside the truth, PNG")->type_name("P.png");
   addIkOptions(*command, *o);
-  command->add_option("--threads", o->threads, "Threads; the errors do not depend on it, the times do")
+  command->add_option("--threads", o->threads, "Threads; the errors do not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->callback([o] { evaluate(*o); });

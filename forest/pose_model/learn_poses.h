@@ -15,7 +15,7 @@ struct PoseLearningConfig {
   int latent = 24;          // (1 .. 31) of the variational autoencoder
   double noise = 1.0;       // [deviations] (>= 0) added to the autoencoder's inputs; 0: the paper's plain autoencoder
   double kl_weight = 0.03;  // (> 0) of the Kullback-Leibler divergence against the squared error of a DoF
-  int epochs = 12;          // (>= 1) passes over all poses
+  int epochs = 60;          // (>= 1) passes over all poses
   int batch = 256;          // [poses] (>= 1)
   double learning_rate = 1e-3;  // (> 0) falls to 0 along half a cosine
   std::uint64_t seed = 1;       // of first weights, order and noise

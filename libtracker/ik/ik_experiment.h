@@ -28,7 +28,7 @@ struct IkFigures {
   double position_m = 0;    // [m] of all 18 joints
   double rotation_deg = 0;  // [deg] angle between the local rotations of a bone, over all bones
   double residual_m = 0;    // [m] IkResult::residual_m
-  double solve_ms = 0;      // [ms] mean time of a solve on one thread
+  double solve_ms = 0;      // [ms] mean processor time of a solve
 };
 
 IkFigures measureIk(const IkSolver& solver, const std::vector<IkTask>& tasks, int threads);

@@ -6,8 +6,9 @@
 namespace depthmocap {
 namespace {
 
-// [m] that one unit of the code is worth: of the blog on latent IK, whose loss has 1e-3 |z|^2.
-constexpr double kCodeWeight_m = 0.0316;
+// [m] that one unit of the code is worth; the blog on latent IK has 0.0316 (1e-3 |z|^2). Of 0.0003 to 0.0316 the best
+// on motions that neither priors nor measurements use (docs/lab/ik.md).
+constexpr double kCodeWeight_m = 0.003;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
