@@ -47,11 +47,11 @@ class Skeleton:
         points = torch.stack(points, dim=1)
         return points[:, self.places], points, torch.stack(axes, dim=1)
 
-    def jacobian(self, places, points, axes):
-        """(n, places, 3, 93) of the places."""
-        arms = places[:, :, None] - points[:, None]
-        J = torch.cross(axes[:, None], arms[:, :, :, None].expand(-1, -1, -1, 3, -1), dim=-1)
-        J = J * self.below[None, :, :, None, None]
+    def jacobian(self, places, points, axes, given):
+        """(n, given, 3, 93) of the given places (n, given)."""
+        arms = places.gather(1, given[..., None].expand(-1, -1, 3))[:, :, None] - points[:, None]
+        arms = arms * self.below[given][..., None]
+        J = torch.linalg.cross(axes[:, None], arms[:, :, :, None])
         return J.flatten(2, 3).transpose(2, 3)
 
 
