@@ -6,5 +6,4 @@ RECIPES = {
     "wide-fast": Recipe(batch=256, steps=1500, rate=1e-3, falls=True),
     "narrow": Recipe(width=128, steps=10000, kept_steps=(1000, 4000)),
     "narrow-denoising": Recipe(width=128, steps=10000, noise=1.0),
-    "narrow-large-batch": Recipe(width=128, batch=10000, steps=1000),
 }

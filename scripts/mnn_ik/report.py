@@ -82,6 +82,10 @@ def rotations(figures):
     return " / ".join(f"{row[2]:.1f}" for row in figures["counts"])
 
 
+def named(recipe):
+    return f"{recipe.width} wide, batch {recipe.batch}" + (", fast" if recipe.falls else "") + (", denoising" if recipe.noise else "")
+
+
 def main_table(report):
     rows = []
 
@@ -93,9 +97,7 @@ def main_table(report):
     add(f"PPCA, {dims} directions", figures)
     add("GMM, 70 Gaussians", report.gmm())
     for name in report.trained():
-        recipe = recipes.RECIPES[name]
-        noise = ", denoising" if recipe.noise else ""
-        add(f"autoencoder, {recipe.width} wide, batch {recipe.batch}{noise}, {report.steps(name)} steps", report.network(name))
+        add(f"autoencoder, {named(recipes.RECIPES[name])}, {report.steps(name)} steps", report.network(name))
     return tables.table(["prior", *(f"{count} joints" for count in COUNTS), "position: less than GMM", "angle: less"], rows)
 
 
@@ -119,7 +121,7 @@ def training_table(report):
         for step in sorted({*recipe.kept_steps, report.steps(name)}):
             if step in points and step <= report.steps(name) and not recipe.noise:
                 p = points[step]
-                rows.append([f"{recipe.width} wide, batch {recipe.batch}", step, *(f"{p[k]:.2f}" for k in ("learned", "frames", "unseen")),
+                rows.append([named(recipe), step, *(f"{p[k]:.2f}" for k in ("learned", "frames", "unseen")),
                              " / ".join(less(report.network(name, step=step), report.gmm()))])
     return tables.table(["network", "steps", "learned [°]", "other frames [°]", "other motions [°]",
                          "less than GMM: position / angle"], rows)
