@@ -58,7 +58,6 @@ bool set(OtherOption& option, std::string_view name, std::string_view value) {
 }  // namespace
 
 OtherOption parseOther(std::string_view text) {
-  constexpr double kAverageBodyMassIndex = 23.5;  // [kg / m^2]
   OtherOption option;
   std::size_t at = text.find(',');
   option.motion = text.substr(0, at);

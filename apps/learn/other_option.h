@@ -7,6 +7,8 @@
 
 namespace depthmocap {
 
+inline constexpr double kAverageBodyMassIndex = 23.5;  // [kg / m^2] of an adult whose weight is not given
+
 // What `synthesize --other` says of somebody else in the view.
 struct OtherOption {
   std::string motion;  // as --motion

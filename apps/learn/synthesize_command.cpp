@@ -39,7 +39,6 @@ constexpr std::string_view kMakeHuman = "makehuman:";
 // Of the average adult: where --height or --weight is not given.
 constexpr double kManStature_m = 1.75;
 constexpr double kWomanStature_m = 1.62;
-constexpr double kAverageBodyMassIndex = 23.5;  // [kg / m^2]
 
 struct SynthesizeOptions {
   std::string motion;
