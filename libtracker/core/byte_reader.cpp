@@ -22,7 +22,7 @@ void ByteReader::require(std::size_t size) const {
 
 void ByteReader::raw(void* to, std::size_t size) {
   require(size);
-  std::memcpy(to, bytes_.data() + at_, size);
+  if (size > 0) std::memcpy(to, bytes_.data() + at_, size);  // `to` of nothing may be null
   at_ += size;
 }
 
