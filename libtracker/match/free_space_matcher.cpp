@@ -77,6 +77,21 @@ FreeSpaceMatcher::Violation FreeSpaceMatcher::check(const Eigen::Vector3f& p_wor
   return {R_world_camera_ * (target + allowed * direction), R_world_camera_ * direction, distance - allowed};
 }
 
+double FreeSpaceMatcher::hanging(const PlacedSurface& placed, bool whole, double reach_m) const {
+  if (silhouette_.empty()) return 0;
+  double sum = 0;
+  std::size_t count = 0;
+  for (int part = 0; part < kPartCount; ++part) {
+    if (!whole && isOfLeg(partAt(part))) continue;
+    for (const PlacedSurface::Point& point : placed.parts[static_cast<std::size_t>(part)]) {
+      const double ratio = std::min(1.0, check(point.p_world).size_m / reach_m);
+      sum += ratio * ratio;
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
 void FreeSpaceMatcher::match(const PlacedSurface& placed, bool whole, SurfaceMatches& matches) {
   if (config_.max_matches == 0 || silhouette_.empty()) return;
   found_.clear();

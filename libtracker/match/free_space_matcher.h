@@ -32,6 +32,9 @@ class FreeSpaceMatcher {
   // Appends the violations of a placed body, spread evenly where there are more than max_matches. `whole` false: the
   // mask may lack legs though they are in view (below a table), and those far from it are not judged.
   void match(const PlacedSurface& placed, bool whole, SurfaceMatches& matches);
+  // [0, 1] How much of a placed body hangs in free space: the mean over its points of the squared distance to where
+  // they could be, over reach_m [m]; 1 from there on.
+  [[nodiscard]] double hanging(const PlacedSurface& placed, bool whole, double reach_m) const;
 
  private:
   struct Violation {

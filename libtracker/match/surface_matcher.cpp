@@ -24,13 +24,27 @@ SurfaceMatcher::SurfaceMatcher(const SurfaceMatchConfig& config) : config_(confi
   config_.validate();
 }
 
-void SurfaceMatcher::observe(const std::vector<SurfaceSample>& samples) {
+void SurfaceMatcher::observe(const std::vector<SurfaceSample>& samples, bool by_parts) {
   samples_.clear();
   const std::size_t count = std::min<std::size_t>(samples.size(), static_cast<std::size_t>(config_.max_matches));
   for (std::size_t i = 0; i < count; ++i) {
     const SurfaceSample& sample = samples[i * samples.size() / count];
-    samples_.push_back({sample.p_world, {sample.probability, config_.min_probability}});
+    samples_.push_back({sample.p_world, {sample.probability, by_parts ? config_.min_probability : 1.0}});
   }
+}
+
+double SurfaceMatcher::unexplained(const PlacedSurface& placed, double reach_m) const {
+  if (samples_.empty()) return 0;
+  static const PartDoubts kNone{{}, 1.0};
+  double sum = 0;
+  for (const Sample& sample : samples_) {
+    const auto found = placed.points.find(sample.p_world, kNone, {reach_m, reach_m});
+    sum += found
+               ? static_cast<double>((placed.parts[found->part][found->index].p_world - sample.p_world).squaredNorm()) /
+                     (reach_m * reach_m)
+               : 1.0;
+  }
+  return sum / static_cast<double>(samples_.size());
 }
 
 void SurfaceMatcher::match(const PlacedSurface& placed, SurfaceMatches& matches) const {

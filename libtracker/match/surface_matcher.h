@@ -32,9 +32,13 @@ class SurfaceMatcher {
  public:
   explicit SurfaceMatcher(const SurfaceMatchConfig& config);
 
-  // The frame. At most max_matches of the samples are looked at, spread evenly.
-  void observe(const std::vector<SurfaceSample>& samples);
+  // The frame. At most max_matches of the samples are looked at, spread evenly. by_parts false: all parts are held
+  // equally likely, so that the distance alone decides.
+  void observe(const std::vector<SurfaceSample>& samples, bool by_parts = true);
   void match(const PlacedSurface& placed, SurfaceMatches& matches) const;
+  // [0, 1] What the body leaves unexplained: the mean over the samples of the squared distance to its surface, of any
+  // part, over reach_m [m]; 1 from there on.
+  [[nodiscard]] double unexplained(const PlacedSurface& placed, double reach_m) const;
 
  private:
   struct Sample {

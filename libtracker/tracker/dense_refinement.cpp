@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace depthmocap {
 namespace {
@@ -34,6 +35,12 @@ constexpr MatchNoise::Range kDepthNoise{0.010, 0.5, 6.0, 2.0};
 // centimetres, and little is to be believed of it then; at first it is not known whether this one does.
 constexpr MatchNoise::Range kOutlineNoise{0.010, 0.01, 1.5, 4.0};
 constexpr double kFirstOutline_m = 0.02;
+
+// Without the parts' help a surface comes nearer by smaller steps.
+constexpr int kRoundsByDistance = 2;
+
+// [m] A point as far off its surface is explained by nothing.
+constexpr double kMisfit_m = 0.15;
 
 }  // namespace
 
@@ -83,11 +90,15 @@ double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor&
   return highest > lowest ? observed_extent_m / (kSeenShare * static_cast<double>(highest - lowest)) : 0;
 }
 
-void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input,
-                             MapSolver& solver, Pose& q, MapSummary& summary) {
+void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor,
+                             MapInput input, MapSolver& solver, Pose& q, MapSummary& summary) {
   int iterations = summary.iterations;
-  matcher_.observe(samples);
-  for (int round = 0; round < rounds_; ++round) {
+  std::swap(matches_, matches_before_);
+  measured_before_ = measured_;
+  touched_before_ = touched_;
+  matcher_.observe(samples, matching == Matching::ByParts);
+  const int rounds = matching == Matching::ByParts ? rounds_ : kRoundsByDistance * rounds_;
+  for (int round = 0; round < rounds; ++round) {
     fk_.update(actor.skeleton, q);
     placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
     matcher_.match(placed_, matches_);
@@ -102,6 +113,18 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, const Ac
     iterations += summary.iterations;
   }
   summary.iterations = iterations;
+}
+
+void DenseRefinement::takeBack() {
+  std::swap(matches_, matches_before_);
+  std::swap(measured_, measured_before_);
+  std::swap(touched_, touched_before_);
+}
+
+double DenseRefinement::misfit(const Actor& actor, const Pose& q) {
+  fk_.update(actor.skeleton, q);
+  placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
+  return matcher_.unexplained(placed_, kMisfit_m) + free_space_.hanging(placed_, whole_, kMisfit_m);
 }
 
 void DenseRefinement::learnNoise(const Actor& actor, const Pose& q) {

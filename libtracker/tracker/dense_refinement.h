@@ -14,6 +14,10 @@
 
 namespace depthmocap {
 
+// What decides which point of the surface a measured point belongs to: the distance and the parts that the classifier
+// sees, or the distance alone.
+enum class Matching { ByParts, ByDistance };
+
 // Beyond the paper: brings the body's surface to the measured points, as iterated closest points do: match, solve (5)
 // with the dense term, match again.
 class DenseRefinement {
@@ -27,8 +31,12 @@ class DenseRefinement {
   void look(const DepthImage& depth, const MaskImage& mask, bool whole, const CameraModel& camera,
             const Eigen::Matrix3d& R_world_camera);
   // q: a solved pose, then the refined one. `input` without its surface; `summary` is replaced where a round was done.
-  void refine(const std::vector<SurfaceSample>& samples, const Actor& actor, MapInput input, MapSolver& solver, Pose& q,
-              MapSummary& summary);
+  void refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor, MapInput input,
+              MapSolver& solver, Pose& q, MapSummary& summary);
+  // The matches are again those of the refine() before the last one.
+  void takeBack();
+  // How badly a pose explains the samples of the last refine() and the image: 0 = all of it, 1 = nothing.
+  [[nodiscard]] double misfit(const Actor& actor, const Pose& q);
 
   // The last refine() fits: how far its matches lie off weighs those of the frames to come.
   void learnNoise(const Actor& actor, const Pose& q);
@@ -53,10 +61,10 @@ class DenseRefinement {
   OutlineMatcher outline_;
   FreeSpaceMatcher free_space_;
   int rounds_;
-  SurfaceMatches matches_;
-  std::size_t measured_ = 0;  // of them, the first ones
-  std::size_t touched_ = 0;   // of the outline, the next ones; the others are of free space
-  MatchNoise noise_;          // of measured points, and of the outline
+  SurfaceMatches matches_, matches_before_;
+  std::size_t measured_ = 0, measured_before_ = 0;  // of them, the first ones
+  std::size_t touched_ = 0, touched_before_ = 0;    // of the outline, the next ones; the others are of free space
+  MatchNoise noise_;                                // of measured points, and of the outline
   MatchNoise outline_noise_;
   ForwardKinematics fk_;
   PlacedSurface placed_;

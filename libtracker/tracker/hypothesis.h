@@ -11,6 +11,7 @@ namespace depthmocap {
 struct Hypothesis {
   Pose q = Pose::Zero();     // world
   MapSummary summary;        // of the last solve
+  double misfit = 0;         // [0, 2] of the image: see DenseRefinement::misfit
   bool fresh = false;        // from a search over all poses, not from the frame before: it has no velocity
   NormalEquations evidence;  // what the image says of q; see MapSolver::expandEvidence
   // Of a pose from one image alone: the body with the size that was found with it.

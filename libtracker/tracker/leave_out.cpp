@@ -37,7 +37,8 @@ constexpr std::array<OptionalPart, 10> kParts = {{
     {"dense", [](TrackerConfig& c) { c.policy.dense_rounds = 0; }},
     {"sides", [](TrackerConfig& c) { c.policy.expect_sides = false; }},
     {"feet", [](TrackerConfig& c) { c.policy.hold_feet = false; }},
-    {"recovery", [](TrackerConfig& c) { c.policy.suspect_rms_m = std::numeric_limits<double>::max(); }},
+    {"recovery",
+     [](TrackerConfig& c) { c.policy.suspect_rms_m = c.policy.suspect_misfit = std::numeric_limits<double>::max(); }},
     {"gaussian", takePaperPrior},
     {"weights", takePaperWeights},
 }};

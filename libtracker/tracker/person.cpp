@@ -88,16 +88,22 @@ std::optional<Hypothesis> Person::fit(const PersonRegion& region) {
   }
   Hypothesis pose =
       fitter_.fitNext(evidence_, prediction_, memory.actor(), config_.policy.hold_feet ? &memory.contacts() : nullptr);
+  if (fitter_.believed(pose) && !fitter_.isPuzzling(pose)) observeBody(pose);
   if (config_.policy.expect_sides) {
     if (std::optional<Hypothesis> other = turnAround(pose)) return adopt(std::move(other));
   }
-  if (!fitter_.believed(pose.summary)) return std::nullopt;
+  if (std::optional<Hypothesis> other = startAnew(pose)) return adopt(std::move(other));
+  if (!fitter_.believed(pose)) return std::nullopt;
+  return pose;
+}
+
+// What a pose that fits says of the body; before other poses are tried.
+void Person::observeBody(Hypothesis& pose) {
   if (memory.body().fitsSize()) {
     pose.observed_scale = fitter_.observedScale(evidence_, memory.actor(), pose.q);
     pose.whole_in_view = fitter_.wholeInView();
   }
   if (memory.body().fitsShape() && fitter_.wholeInView()) pose.shape = fitter_.observedShape(pose, memory.body());
-  return pose;
 }
 
 // Things in rooms that were taken for somebody have no head on a neck where a body would.
@@ -118,6 +124,14 @@ std::optional<Hypothesis> Person::turnAround(const Hypothesis& tracked) {
                               kFacingWeight * std::log(static_cast<double>(std::max(share, kLikelyFacing)));
   std::optional<Hypothesis> other = fitFromAnySide(shares, memory.body());
   return other && other->cost < config_.policy.switch_gain * tracked_cost ? other : std::nullopt;
+}
+
+// The tracked pose keeps leaving much of the image unexplained: one from this image alone that explains more of it.
+// None if there is none.
+std::optional<Hypothesis> Person::startAnew(const Hypothesis& tracked) {
+  if (!memory.puzzled(fitter_.isPuzzling(tracked))) return std::nullopt;
+  std::optional<Hypothesis> other = fitFromAnySide(evidence_.pixels.facing_by_image, memory.body());
+  return other && fitter_.explainsMore(*other, tracked) ? other : std::nullopt;
 }
 
 // A pose from this image alone. Where the classifier doubts from which side the actor is seen, each likely side is

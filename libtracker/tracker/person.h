@@ -38,8 +38,10 @@ class Person {
   void begin(const DepthFrame& frame);
   void rest(const PersonRegion& region, const UprightWorld& world);
   std::optional<Hypothesis> fit(const PersonRegion& region);
+  void observeBody(Hypothesis& pose);
   std::optional<Hypothesis> fitFromAnySide(const FacingShares& shares, const BodyAdapter& body);
   std::optional<Hypothesis> turnAround(const Hypothesis& tracked);
+  std::optional<Hypothesis> startAnew(const Hypothesis& tracked);
   std::optional<Hypothesis> adopt(std::optional<Hypothesis> found);
   [[nodiscard]] bool showsHeadAndNeck(const Hypothesis& pose);
   [[nodiscard]] bool enough(const PersonRegion& region) const;

@@ -4,6 +4,7 @@
 
 #include "libtracker/solve/marker_term.h"
 #include "libtracker/solve/size_estimate.h"
+#include "libtracker/tracker/alignment.h"
 
 namespace depthmocap {
 namespace {
@@ -34,19 +35,61 @@ void PoseFitter::look(const DepthImage& depth, const PersonRegion& actor, const 
 }
 
 void PoseFitter::buildPrior(const Evidence& evidence, const Prediction& prediction, const Actor& actor) {
+  buildPriorAbout(legs_.complete(evidence.markers_world, actor), prediction, actor, prior_);
+}
+
+void PoseFitter::buildPriorAbout(const MarkerSet& markers_world, const Prediction& prediction, const Actor& actor,
+                                 LocalPrior& prior) {
   PoseQuery query;
-  query.markers = legs_.complete(evidence.markers_world, actor);
+  query.markers = markers_world;
   query.has_history = true;
   query.q_prev = prediction.q_prev;
   query.q_prev2 = prediction.q_prev2;
   query.heading = prediction.q_prev[kRootRy];
   query.scale = searchScale(actor);
   search_.search(query, config_.prior.neighbours.back(), neighbours_);
-  prior_builder_.build(*database_, neighbours_, prior_);
+  prior_builder_.build(*database_, neighbours_, prior);
+}
+
+bool PoseFitter::believed(const Hypothesis& fit) const {
+  return fit.summary.rms_marker_m <= config_.policy.max_rms_m || fit.misfit <= config_.policy.max_misfit;
+}
+
+bool PoseFitter::isPuzzling(const Hypothesis& fit) const {
+  return fit.misfit > config_.policy.suspect_misfit;
+}
+
+bool PoseFitter::explainsMore(const Hypothesis& other, const Hypothesis& fit) const {
+  return other.misfit < config_.policy.misfit_gain * fit.misfit;
 }
 
 Hypothesis PoseFitter::fitNext(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
                                const FootContacts* contacts) {
+  Hypothesis fit = fitByParts(evidence, prediction, actor, contacts);
+  if (isPuzzling(fit)) {
+    Hypothesis other = fitByDistance(evidence, prediction, actor);
+    if (explainsMore(other, fit)) return other;
+    dense_.takeBack();
+  }
+  if (believed(fit)) dense_.learnNoise(actor, fit.q);
+  return fit;
+}
+
+Hypothesis PoseFitter::fitByDistance(const Evidence& evidence, const Prediction& prediction, const Actor& actor) {
+  Hypothesis fit;
+  fit.q = prediction.q;
+  buildPriorAbout(modelMarkers(actor, prediction.q, fk_), prediction, actor, prior_of_prediction_);
+  const MarkerSet none;
+  MapInput input{actor.skeleton, actor.markers, none, &prior_of_prediction_, &prediction.q_prev, &prediction.q_prev2};
+  dense_.refine(evidence.samples, Matching::ByDistance, actor, input, solver_, fit.q, fit.summary);
+  fit.misfit = dense_.misfit(actor, fit.q);
+  input.surface = dense_.matches();
+  solver_.expandEvidence(input, fit.q, fit.evidence);
+  return fit;
+}
+
+Hypothesis PoseFitter::fitByParts(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
+                                  const FootContacts* contacts) {
   Hypothesis fit;
   fit.q = prediction.q;
   const MarkerSet& markers = legs_.complete(evidence.markers_world, actor);
@@ -64,13 +107,13 @@ Hypothesis PoseFitter::fitNext(const Evidence& evidence, const Prediction& predi
     }
   }
   finish(evidence, actor, input, fit);
-  if (believed(fit.summary)) dense_.learnNoise(actor, fit.q);
   return fit;
 }
 
 // The dense term, and what it leaves.
 void PoseFitter::finish(const Evidence& evidence, const Actor& actor, MapInput input, Hypothesis& fit) {
-  dense_.refine(evidence.samples, actor, input, solver_, fit.q, fit.summary);
+  dense_.refine(evidence.samples, Matching::ByParts, actor, input, solver_, fit.q, fit.summary);
+  fit.misfit = dense_.misfit(actor, fit.q);
   judgeBySeen(evidence.markers_world, actor, fit.q, fit.summary);
   input.surface = dense_.matches();
   solver_.expandEvidence(input, fit.q, fit.evidence);
@@ -93,7 +136,7 @@ std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const B
   fit.summary = found->summary;
   const Actor& actor = fit.body->actor();
   judgeBySeen(evidence.markers_world, actor, fit.q, fit.summary);
-  if (!believed(fit.summary)) return std::nullopt;
+  if (fit.summary.rms_marker_m > config_.policy.max_rms_m) return std::nullopt;
   const MarkerSet& markers = legs_.complete(evidence.markers_world, actor);
   const MapInput input{actor.skeleton, actor.markers, markers, &global_.prior(), nullptr, nullptr};
   finish(evidence, actor, input, fit);

@@ -34,15 +34,20 @@ class PoseFitter {
 
   // (3) and (4) for fitNext(): the poses nearest to the markers and to the pose before, and the local model over them.
   void buildPrior(const Evidence& evidence, const Prediction& prediction, const Actor& actor);
-  // (5) from the pose before; where that fits badly, a search over all poses competes with it. `contacts` may be null.
+  // (5) from the pose before. Where that fits the markers badly, a search over all poses competes with it; where it
+  // leaves much of the image unexplained, what the pose before says without any markers. `contacts` may be null.
   // Whether the pose is to be believed is for the caller to ask.
   Hypothesis fitNext(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
                      const FootContacts* contacts);
   // A pose from one image alone; a body whose size is being fitted takes it at once. None if no pose is believed.
   std::optional<Hypothesis> fitFirst(const Evidence& evidence, const BodyAdapter& body);
 
-  // The fit of the seen markers is close enough to be a person.
-  [[nodiscard]] bool believed(const MapSummary& fit) const { return fit.rms_marker_m <= config_.policy.max_rms_m; }
+  // The fit of the seen markers is close enough to be a person, or explains the image whatever the markers say.
+  [[nodiscard]] bool believed(const Hypothesis& fit) const;
+  // The pose leaves so much of the image unexplained that others should be tried,
+  [[nodiscard]] bool isPuzzling(const Hypothesis& fit) const;
+  // and this one explains enough more of it.
+  [[nodiscard]] bool explainsMore(const Hypothesis& other, const Hypothesis& fit) const;
   // The energy without what the frames before say.
   [[nodiscard]] double energyOfImage(const MapSummary& fit) const;
   // How much larger the actor is than this body: by the height of the whole person where it is in view, else by the
@@ -54,6 +59,14 @@ class PoseFitter {
   [[nodiscard]] bool wholeInView() const { return whole_in_view_; }
 
  private:
+  // (3) and (4) about these markers and the pose before.
+  void buildPriorAbout(const MarkerSet& markers_world, const Prediction& prediction, const Actor& actor,
+                       LocalPrior& prior);
+  Hypothesis fitByParts(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
+                        const FootContacts* contacts);
+  // From the pose before by distance alone, whatever parts the classifier sees: a limb that it takes for another one
+  // stays what it was.
+  Hypothesis fitByDistance(const Evidence& evidence, const Prediction& prediction, const Actor& actor);
   void finish(const Evidence& evidence, const Actor& actor, MapInput input, Hypothesis& fit);
   // Supposed markers say nothing about how well a pose fits: its summary is to speak of those that were seen.
   void judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary);
@@ -69,7 +82,7 @@ class PoseFitter {
   DenseRefinement dense_;
   HiddenLegs legs_;
   std::vector<PoseNeighbour> neighbours_;
-  LocalPrior prior_;
+  LocalPrior prior_, prior_of_prediction_;
   bool whole_in_view_ = false;  // of the present image
   ForwardKinematics fk_;
 };

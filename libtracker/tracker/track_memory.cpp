@@ -11,6 +11,8 @@ namespace {
 constexpr float kDisputedShare = 0.01F;  // a side that the image gives less is disputed
 constexpr int kDisputePatience = 3;      // [frames] of dispute before other sides are tried for the first time
 constexpr int kDisputePeriod = 15;       // [frames] of dispute between two trials of other sides
+constexpr int kPuzzledPatience = 2;      // [frames] of much unexplained before the image alone is asked, and
+constexpr int kPuzzledPeriod = 5;        // [frames] from then on between two trials
 
 BodyAdapter firstBody(const TrackPolicy& policy, const std::optional<Actor>& given) {
   return {given ? *given : averageActor(averageBoneLengths(policy.assumed_stature_m)), given.has_value(),
@@ -63,7 +65,7 @@ void TrackMemory::accept(const Hypothesis& pose, const Prediction& prediction,
   history_.accept(pose.q, prediction.time_s, pose.fresh);
   if (pose.body) {
     body_ = *pose.body;
-    disputed_frames_ = 0;
+    disputed_frames_ = puzzled_frames_ = 0;
   }
   if (pose.observed_scale) body_.observeSize(*pose.observed_scale, pose.whole_in_view ? prediction.dt_s : 0.0);
   if (pose.shape) body_.observeShape(*pose.shape, prediction.dt_s);
@@ -85,6 +87,11 @@ void TrackMemory::turnWorld(const Eigen::Matrix3d& R_new_before) {
 bool TrackMemory::dispute(float share) {
   disputed_frames_ = share < kDisputedShare ? disputed_frames_ + 1 : 0;
   return disputed_frames_ % kDisputePeriod == kDisputePatience;
+}
+
+bool TrackMemory::puzzled(bool much) {
+  puzzled_frames_ = much ? puzzled_frames_ + 1 : 0;
+  return puzzled_frames_ % kPuzzledPeriod == kPuzzledPatience;
 }
 
 void TrackMemory::forget(const std::optional<Eigen::Vector3d>& wanted_camera) {

@@ -27,6 +27,8 @@ class TrackMemory {
   // Counts the frames in which the image gives the tracked side less than `share`; true when it is time to try the
   // other sides.
   bool dispute(float share);
+  // Whether it is time to try poses from the image alone: the tracked one keeps leaving much of it unexplained.
+  bool puzzled(bool much);
 
   // Forgets the actor; the next one is the person nearest to `wanted_camera` [m], or anybody.
   void forget(const std::optional<Eigen::Vector3d>& wanted_camera);
@@ -54,6 +56,7 @@ class TrackMemory {
   Eigen::Vector3d trunk_camera_ = Eigen::Vector3d::Zero();  // [m] where it was last expected
   double time_s_ = 0;                                       // of the frame before
   int disputed_frames_ = 0;
+  int puzzled_frames_ = 0;
   ForwardKinematics fk_;
 };
 

@@ -20,6 +20,9 @@ struct TrackPolicy {
   double max_rms_m = 0.15;    // [m] a worse fit of the seen markers is not believed
   double suspect_rms_m = 0.065;  // [m] above it a global search competes with the tracked pose
   double switch_gain = 0.6;      // (0 .. 1) the global pose wins if its energy is below this share of the tracked one's
+  double suspect_misfit = 0.10;  // [0 .. 2] of the image unexplained, above which other explanations compete
+  double misfit_gain = 0.8;      // (0 .. 1) one wins if it leaves less than this share of the tracked pose's
+  double max_misfit = 0.15;      // [0 .. 2] up to which a pose is believed whatever its markers say
   double coast_s = 0.4;          // [s] a pose is carried on without evidence, then the actor is lost
   double absent_s = 2.5;         // [s] (>= coast_s) the lost actor is waited for, then whoever is there is tracked
   int start_poses = 6;           // (>= 1) database poses a global search solves from

@@ -34,6 +34,26 @@ struct Scene {
   }
 };
 
+TEST(FreeSpaceMatcher, SaysHowMuchOfABodyHangsInFreeSpace) {
+  const Scene scene;
+  FreeSpaceMatcher matcher({});
+  EXPECT_EQ(matcher.hanging({}, true, 0.15), 0) << "nothing was observed";
+  matcher.observe(scene.depth, scene.mask, scene.camera, scene.R_world_camera);
+  const auto placedAt = [&](std::initializer_list<Eigen::Vector3d> points, Part part) {
+    PlacedSurface placed;
+    for (const Eigen::Vector3d& p : points) {
+      placed.parts[static_cast<std::size_t>(partIndex(part))].push_back(
+          {(scene.R_world_camera * p).cast<float>(), Eigen::Vector3f::UnitZ(), {}});
+    }
+    return placed;
+  };
+  const double margin = FreeSpaceConfig{}.margin_m;
+  EXPECT_EQ(matcher.hanging(placedAt({{0, 0, 2.0}, {0, 0, 2.5}}, Part::Head), true, 0.15), 0);
+  EXPECT_NEAR(matcher.hanging(placedAt({{0, 0, 2.0 - margin - 0.075}}, Part::Head), true, 0.15), 0.25, 0.01);
+  EXPECT_NEAR(matcher.hanging(placedAt({{0, 0, 2.0}, {0, 0, 1.2}}, Part::Head), true, 0.15), 0.5, 1e-6);
+  EXPECT_EQ(matcher.hanging(placedAt({{0, 0, 1.2}}, Part::LeftLowerLeg), false, 0.15), 0) << "the mask may lack legs";
+}
+
 TEST(FreeSpaceMatcher, AcceptsWhatIsOnTheSurfaceOrHiddenBehindIt) {
   const Scene scene;
   EXPECT_TRUE(scene.matchOf({0, 0, 2.0}).empty());
