@@ -41,7 +41,8 @@ class Run:
 
     @property
     def joints_mm(self):
-        return 1000 * self.figures["mean_joint_error_m"]
+        error_m = self.figures["mean_joint_error_m"]
+        return 1000 * error_m if error_m is not None else float("nan")  # nobody was tracked
 
 
 class Lab:
