@@ -24,12 +24,14 @@ SurfaceMatcher::SurfaceMatcher(const SurfaceMatchConfig& config) : config_(confi
   config_.validate();
 }
 
-void SurfaceMatcher::observe(const std::vector<SurfaceSample>& samples, bool by_parts) {
+void SurfaceMatcher::observe(const std::vector<SurfaceSample>& samples, Matching matching) {
+  // By distance all parts are held equally likely.
+  const double min_probability = matching == Matching::ByParts ? config_.min_probability : 1.0;
   samples_.clear();
   const std::size_t count = std::min<std::size_t>(samples.size(), static_cast<std::size_t>(config_.max_matches));
   for (std::size_t i = 0; i < count; ++i) {
     const SurfaceSample& sample = samples[i * samples.size() / count];
-    samples_.push_back({sample.p_world, {sample.probability, by_parts ? config_.min_probability : 1.0}});
+    samples_.push_back({sample.p_world, {sample.probability, min_probability}});
   }
 }
 

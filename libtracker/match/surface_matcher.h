@@ -16,6 +16,10 @@ struct SurfaceSample {
   std::array<float, kPartCount> probability{};        // of each part
 };
 
+// What decides which point of the surface a measured point belongs to: the distance and the parts that the classifier
+// sees, or the distance alone.
+enum class Matching { ByParts, ByDistance };
+
 struct SurfaceMatchConfig {
   double max_distance_m = 0.30;   // [m] (> 0) a sample further from its surface point has no match
   double match_sigma_m = 0.04;    // [m] (> 0) how far the surface is expected from a sample of its part
@@ -32,9 +36,8 @@ class SurfaceMatcher {
  public:
   explicit SurfaceMatcher(const SurfaceMatchConfig& config);
 
-  // The frame. At most max_matches of the samples are looked at, spread evenly. by_parts false: all parts are held
-  // equally likely, so that the distance alone decides.
-  void observe(const std::vector<SurfaceSample>& samples, bool by_parts = true);
+  // The frame. At most max_matches of the samples are looked at, spread evenly.
+  void observe(const std::vector<SurfaceSample>& samples, Matching matching);
   void match(const PlacedSurface& placed, SurfaceMatches& matches) const;
   // [0, 1] What the body leaves unexplained: the mean over the samples of the squared distance to its surface, of any
   // part, over reach_m [m]; 1 from there on.

@@ -93,22 +93,23 @@ double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor&
 void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor,
                              MapInput input, MapSolver& solver, Pose& q, MapSummary& summary) {
   int iterations = summary.iterations;
-  std::swap(matches_, matches_before_);
-  measured_before_ = measured_;
-  touched_before_ = touched_;
-  matcher_.observe(samples, matching == Matching::ByParts);
+  std::swap(pairs_, pairs_before_);
+  SurfaceMatches& matches = pairs_.matches;
+  matches.clear();
+  pairs_.measured = pairs_.touched = 0;
+  matcher_.observe(samples, matching);
   const int rounds = matching == Matching::ByParts ? rounds_ : kRoundsByDistance * rounds_;
   for (int round = 0; round < rounds; ++round) {
     fk_.update(actor.skeleton, q);
     placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
-    matcher_.match(placed_, matches_);
-    measured_ = matches_.size();
-    for (SurfaceMatch& match : matches_) match.weight *= noise_.information();
-    outline_.match(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_, matches_);
-    touched_ = matches_.size() - measured_;
-    for (std::size_t i = measured_; i < matches_.size(); ++i) matches_[i].weight *= outline_noise_.information();
-    free_space_.match(placed_, whole_, matches_);
-    input.surface = &matches_;
+    matcher_.match(placed_, matches);
+    pairs_.measured = matches.size();
+    for (SurfaceMatch& match : matches) match.weight *= noise_.information();
+    outline_.match(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_, matches);
+    pairs_.touched = matches.size() - pairs_.measured;
+    for (std::size_t i = pairs_.measured; i < matches.size(); ++i) matches[i].weight *= outline_noise_.information();
+    free_space_.match(placed_, whole_, matches);
+    input.surface = &matches;
     summary = solver.solve(input, q);
     iterations += summary.iterations;
   }
@@ -116,12 +117,11 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching
 }
 
 void DenseRefinement::takeBack() {
-  std::swap(matches_, matches_before_);
-  std::swap(measured_, measured_before_);
-  std::swap(touched_, touched_before_);
+  std::swap(pairs_, pairs_before_);
 }
 
-double DenseRefinement::misfit(const Actor& actor, const Pose& q) {
+std::optional<double> DenseRefinement::misfit(const Actor& actor, const Pose& q) {
+  if (rounds_ == 0) return std::nullopt;
   fk_.update(actor.skeleton, q);
   placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
   return matcher_.unexplained(placed_, kMisfit_m) + free_space_.hanging(placed_, whole_, kMisfit_m);

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,10 +14,6 @@
 #include "libtracker/solve/map_solver.h"
 
 namespace depthmocap {
-
-// What decides which point of the surface a measured point belongs to: the distance and the parts that the classifier
-// sees, or the distance alone.
-enum class Matching { ByParts, ByDistance };
 
 // Beyond the paper: brings the body's surface to the measured points, as iterated closest points do: match, solve (5)
 // with the dense term, match again.
@@ -33,10 +30,11 @@ class DenseRefinement {
   // q: a solved pose, then the refined one. `input` without its surface; `summary` is replaced where a round was done.
   void refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor, MapInput input,
               MapSolver& solver, Pose& q, MapSummary& summary);
-  // The matches are again those of the refine() before the last one.
+  // The matches are again those of the refine() before the last one; not twice in a row.
   void takeBack();
-  // How badly a pose explains the samples of the last refine() and the image: 0 = all of it, 1 = nothing.
-  [[nodiscard]] double misfit(const Actor& actor, const Pose& q);
+  // [0, 2] What a pose leaves unexplained of the samples of the last refine(), and how much of its body hangs in free
+  // space: each 0 = nothing, 1 = all of it. None without rounds: nothing was matched then.
+  [[nodiscard]] std::optional<double> misfit(const Actor& actor, const Pose& q);
 
   // The last refine() fits: how far its matches lie off weighs those of the frames to come.
   void learnNoise(const Actor& actor, const Pose& q);
@@ -44,12 +42,14 @@ class DenseRefinement {
   void forget();
 
   // The matches of the last refine(); null: it made none.
-  [[nodiscard]] const SurfaceMatches* matches() const { return rounds_ > 0 ? &matches_ : nullptr; }
+  [[nodiscard]] const SurfaceMatches* matches() const { return rounds_ > 0 ? &pairs_.matches : nullptr; }
 
   // Those of measured points, and of lines of sight past the body.
-  [[nodiscard]] std::span<const SurfaceMatch> measured() const { return std::span(matches_).first(measured_); }
+  [[nodiscard]] std::span<const SurfaceMatch> measured() const {
+    return std::span(pairs_.matches).first(pairs_.measured);
+  }
   [[nodiscard]] std::span<const SurfaceMatch> outline() const {
-    return std::span(matches_).subspan(measured_, touched_);
+    return std::span(pairs_.matches).subspan(pairs_.measured, pairs_.touched);
   }
 
   // How much taller the measured person stands than the model at the solved pose: the ratio of their vertical extents.
@@ -57,14 +57,18 @@ class DenseRefinement {
   [[nodiscard]] double extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q);
 
  private:
+  struct Pairs {
+    SurfaceMatches matches;
+    std::size_t measured = 0;  // of them, the first ones are of measured points,
+    std::size_t touched = 0;   // the next ones of the outline, the others of free space
+  };
+
   SurfaceMatcher matcher_;
   OutlineMatcher outline_;
   FreeSpaceMatcher free_space_;
   int rounds_;
-  SurfaceMatches matches_, matches_before_;
-  std::size_t measured_ = 0, measured_before_ = 0;  // of them, the first ones
-  std::size_t touched_ = 0, touched_before_ = 0;    // of the outline, the next ones; the others are of free space
-  MatchNoise noise_;                                // of measured points, and of the outline
+  Pairs pairs_, pairs_before_;  // of the last refine(), and of the one before it
+  MatchNoise noise_;            // of measured points, and of the outline
   MatchNoise outline_noise_;
   ForwardKinematics fk_;
   PlacedSurface placed_;

@@ -52,15 +52,16 @@ void PoseFitter::buildPriorAbout(const MarkerSet& markers_world, const Predictio
 }
 
 bool PoseFitter::believed(const Hypothesis& fit) const {
-  return fit.summary.rms_marker_m <= config_.policy.max_rms_m || fit.misfit <= config_.policy.max_misfit;
+  return fit.matching == Matching::ByDistance || fit.summary.rms_marker_m <= config_.policy.max_rms_m ||
+         (fit.misfit && *fit.misfit <= config_.policy.max_misfit);
 }
 
 bool PoseFitter::isPuzzling(const Hypothesis& fit) const {
-  return fit.misfit > config_.policy.suspect_misfit;
+  return fit.misfit && *fit.misfit > config_.policy.suspect_misfit;
 }
 
 bool PoseFitter::explainsMore(const Hypothesis& other, const Hypothesis& fit) const {
-  return other.misfit < config_.policy.misfit_gain * fit.misfit;
+  return other.misfit && fit.misfit && *other.misfit < config_.policy.misfit_gain * *fit.misfit;
 }
 
 Hypothesis PoseFitter::fitNext(const Evidence& evidence, const Prediction& prediction, const Actor& actor,
@@ -77,12 +78,14 @@ Hypothesis PoseFitter::fitNext(const Evidence& evidence, const Prediction& predi
 
 Hypothesis PoseFitter::fitByDistance(const Evidence& evidence, const Prediction& prediction, const Actor& actor) {
   Hypothesis fit;
+  fit.matching = Matching::ByDistance;
   fit.q = prediction.q;
   buildPriorAbout(modelMarkers(actor, prediction.q, fk_), prediction, actor, prior_of_prediction_);
   const MarkerSet none;
   MapInput input{actor.skeleton, actor.markers, none, &prior_of_prediction_, &prediction.q_prev, &prediction.q_prev2};
   dense_.refine(evidence.samples, Matching::ByDistance, actor, input, solver_, fit.q, fit.summary);
   fit.misfit = dense_.misfit(actor, fit.q);
+  fit.summary.rms_marker_m = rmsOfSeen(evidence.markers_world, actor, fit.q);
   input.surface = dense_.matches();
   solver_.expandEvidence(input, fit.q, fit.evidence);
   return fit;
@@ -144,9 +147,12 @@ std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const B
 }
 
 void PoseFitter::judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary) {
-  if (!legs_.supposed()) return;
+  if (legs_.supposed()) summary.rms_marker_m = rmsOfSeen(seen_world, actor, q);
+}
+
+double PoseFitter::rmsOfSeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q) {
   fk_.update(actor.skeleton, q);
-  summary.rms_marker_m = MarkerTerm(actor.markers, seen_world, 1, config_.solve.sigma_m).rms(fk_);
+  return MarkerTerm(actor.markers, seen_world, 1, config_.solve.sigma_m).rms(fk_);
 }
 
 double PoseFitter::energyOfImage(const MapSummary& fit) const {

@@ -42,7 +42,7 @@ class PoseFitter {
   // A pose from one image alone; a body whose size is being fitted takes it at once. None if no pose is believed.
   std::optional<Hypothesis> fitFirst(const Evidence& evidence, const BodyAdapter& body);
 
-  // The fit of the seen markers is close enough to be a person, or explains the image whatever the markers say.
+  // The fit of the seen markers is close enough to be a person, or the pose explains the image whatever they say.
   [[nodiscard]] bool believed(const Hypothesis& fit) const;
   // The pose leaves so much of the image unexplained that others should be tried,
   [[nodiscard]] bool isPuzzling(const Hypothesis& fit) const;
@@ -70,6 +70,7 @@ class PoseFitter {
   void finish(const Evidence& evidence, const Actor& actor, MapInput input, Hypothesis& fit);
   // Supposed markers say nothing about how well a pose fits: its summary is to speak of those that were seen.
   void judgeBySeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q, MapSummary& summary);
+  [[nodiscard]] double rmsOfSeen(const MarkerSet& seen_world, const Actor& actor, const Pose& q);  // [m]
   [[nodiscard]] double searchScale(const Actor& actor) const { return actor.stature_m() / search_stature_m_; }
 
   const TrackerConfig config_;

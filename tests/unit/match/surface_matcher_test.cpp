@@ -31,11 +31,11 @@ TEST(SurfaceMatcher, TakesThePartThatTheClassifierSeesOrTheNearestOne) {
   const PlacedSurface placed = armAndLeg();
   SurfaceMatcher matcher({});
   SurfaceMatches matches;
-  for (const bool by_parts : {true, false}) {
-    matcher.observe({sampleOf(kLeg, 0.03F)}, by_parts);
+  for (const Matching matching : {Matching::ByParts, Matching::ByDistance}) {
+    matcher.observe({sampleOf(kLeg, 0.03F)}, matching);
     matcher.match(placed, matches);
     ASSERT_EQ(matches.size(), 1U);
-    EXPECT_EQ(matches[0].part, by_parts ? Part::LeftLowerLeg : Part::LeftLowerArm);
+    EXPECT_EQ(matches[0].part, matching == Matching::ByParts ? Part::LeftLowerLeg : Part::LeftLowerArm);
   }
 }
 
@@ -43,11 +43,11 @@ TEST(SurfaceMatcher, SaysHowMuchABodyLeavesUnexplainedWhateverThePart) {
   const PlacedSurface placed = armAndLeg();
   SurfaceMatcher matcher({});
   EXPECT_EQ(matcher.unexplained(placed, 0.1), 0) << "nothing was observed";
-  matcher.observe({sampleOf(kLeg, 0.0F)});
+  matcher.observe({sampleOf(kLeg, 0.0F)}, Matching::ByParts);
   EXPECT_NEAR(matcher.unexplained(placed, 0.1), 0, 1e-6);
-  matcher.observe({sampleOf(kArm, 0.15F)});
+  matcher.observe({sampleOf(kArm, 0.15F)}, Matching::ByParts);
   EXPECT_NEAR(matcher.unexplained(placed, 0.1), 0.25, 1e-4);
-  matcher.observe({sampleOf(kArm, 0.0F), sampleOf(kArm, 0.9F)});
+  matcher.observe({sampleOf(kArm, 0.0F), sampleOf(kArm, 0.9F)}, Matching::ByParts);
   EXPECT_NEAR(matcher.unexplained(placed, 0.1), 0.5, 1e-6) << "beyond its reach a point counts once";
 }
 

@@ -88,7 +88,7 @@ TEST(SurfaceMatcher, TakesThePointThatFacesTheCamera) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.observe({scene.sampleAhead(0.01F)});
+  matcher.observe({scene.sampleAhead(0.01F)}, Matching::ByParts);
   matcher.match(scene.placed(), matches);
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_NEAR(matches[0].model.p_bone.z(), 0.12, 1e-6);
@@ -99,7 +99,7 @@ TEST(SurfaceMatcher, LeavesOutWhatIsFarAway) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.observe({scene.sampleAhead(0.5F)});
+  matcher.observe({scene.sampleAhead(0.5F)}, Matching::ByParts);
   matcher.match(scene.placed(), matches);
   EXPECT_TRUE(matches.empty());
 }
@@ -108,7 +108,7 @@ TEST(SurfaceMatcher, WeighsADistantMatchLess) {
   const ChestScene scene;
   SurfaceMatcher matcher{SurfaceMatchConfig{}};
   SurfaceMatches matches;
-  matcher.observe({scene.sampleAhead(0.0F), scene.sampleAhead(0.1F)});
+  matcher.observe({scene.sampleAhead(0.0F), scene.sampleAhead(0.1F)}, Matching::ByParts);
   matcher.match(scene.placed(), matches);
   ASSERT_EQ(matches.size(), 2U);
   EXPECT_GT(matches[0].weight, 0.99);
@@ -121,7 +121,7 @@ TEST(SurfaceMatcher, LooksAtNoMoreSamplesThanAsked) {
   config.max_matches = 5;
   SurfaceMatcher matcher{config};
   SurfaceMatches matches;
-  matcher.observe(std::vector<SurfaceSample>(40, scene.sampleAhead(0.0F)));
+  matcher.observe(std::vector<SurfaceSample>(40, scene.sampleAhead(0.0F)), Matching::ByParts);
   matcher.match(scene.placed(), matches);
   EXPECT_EQ(matches.size(), 5U);
 }

@@ -392,6 +392,19 @@ TEST(Tracker, MarkersOfAMeasurementReplaceTheFoundOnes) {
   EXPECT_NE(tracker.process(walk().frames[1]).markers_camera.position, known.position);
 }
 
+// Nothing but the markers judges a pose there.
+TEST(Tracker, WithoutTheDenseTermAPoseFarFromItsMarkersIsNotBelieved) {
+  TrackerConfig config;
+  config.policy.dense_rounds = 0;
+  config.policy.suspect_rms_m = 1e9;  // nothing else is tried
+  Tracker tracker(models(), walk().camera, config);
+  MarkerSet apart = tracker.process(walk().frames[0]).markers_camera;
+  ASSERT_EQ(tracker.process(walk().frames[1]).state, TrackState::Tracking);
+  for (int i = 0; i < kPartCount; ++i) apart.position(0, i) += i % 2 == 0 ? 0.6 : -0.6;
+  TrackerMeasurement::setMarkers(tracker, apart);
+  EXPECT_EQ(tracker.process(walk().frames[2]).state, TrackState::Coasting);
+}
+
 struct Wrong {
   const char* name;
   const char* says;
