@@ -119,7 +119,9 @@ Bytes packed(const Bytes& raw) {
 }
 
 Bytes encode(const Forest& forest) {
-  Bytes body(forest.origin.begin(), forest.origin.end());
+  // A long origin is cut: it only says to people where a forest comes from, and hours of training stand behind it.
+  const std::string origin = forest.origin.substr(0, kMaxOriginBytes);
+  Bytes body(origin.begin(), origin.end());
   Bytes raw;
   for (const ForestTree& tree : forest.trees) {
     put(body, static_cast<std::uint32_t>(tree.nodes.size()));
@@ -131,7 +133,7 @@ Bytes encode(const Forest& forest) {
   put(file, kForestVersion);
   put(file, static_cast<std::uint32_t>(forest.trees.size()));
   put(file, static_cast<std::uint32_t>(forest.facings));
-  put(file, static_cast<std::uint32_t>(forest.origin.size()));
+  put(file, static_cast<std::uint32_t>(origin.size()));
   put(file, static_cast<std::uint64_t>(stream.size()));
   put(file, static_cast<std::uint64_t>(raw.size()));
   put(file, static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), body.data(), body.size())));
@@ -143,7 +145,7 @@ Bytes encode(const Forest& forest) {
 
 void saveForest(const Forest& forest, const std::filesystem::path& path) {
   checkForest(forest);
-  DMC_CHECK(forest.trees.size() <= kMaxTrees && forest.origin.size() <= kMaxOriginBytes);
+  DMC_CHECK(forest.trees.size() <= kMaxTrees);
   const Bytes file = encode(forest);
   writeFileAtomically(path, {reinterpret_cast<const char*>(file.data()), file.size()});
 }

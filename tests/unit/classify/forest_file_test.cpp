@@ -51,6 +51,14 @@ TEST_F(ForestFile, RoundTripKeepsEverything) {
   }
 }
 
+// Hours of training stand behind a forest: a long list of what it learnt from is no reason not to write it.
+TEST_F(ForestFile, ALongOriginIsCut) {
+  Forest forest = test::randomForest(1, 40, 1, 1);
+  forest.origin = std::string(5000, 'x');
+  saveForest(forest, path_);
+  EXPECT_EQ(loadForest(path_).origin, std::string(4096, 'x'));
+}
+
 TEST_F(ForestFile, RenumbersAnyOrderOfNodes) {
   // Root 0 -> 3, 4; node 4 -> 1, 2.
   ForestTree tree;
