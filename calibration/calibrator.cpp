@@ -197,9 +197,11 @@ TPoseVerdict Calibrator::Impl::judge(const DepthFrame& frame) {
 // Whoever is there, the plainest first.
 void Calibrator::Impl::segment(const DepthImage& depth) {
   const SegmentConfig range;
-  models->room->classify(depth, camera, range.min_depth_m, range.max_depth_m, config.threads, room_memory, map);
-  segmenter.segment(
-      depth, camera, [this]() -> const RoomMap& { return map; }, ExpectedPeople(kMostPeople), segmentation);
+  const auto look = [&](const DepthImage& seen) -> const RoomMap& {
+    models->room->classify(seen, camera, range.min_depth_m, range.max_depth_m, config.threads, room_memory, map);
+    return map;
+  };
+  segmenter.segment(depth, camera, look, ExpectedPeople(kMostPeople), segmentation);
 }
 
 void Calibrator::Impl::findPeople(const DepthImage& depth) {

@@ -28,12 +28,13 @@ Counts measurePicture(const RoomClassifier& classifier, const TrainingImage& ima
   const SegmentConfig range;
   RoomClassifier::Memory memory;
   RoomMap map;
-  classifier.classify(image.depth, camera, range.min_depth_m, range.max_depth_m, 1, memory, map);
+  const auto look = [&](const DepthImage& depth) -> const RoomMap& {
+    classifier.classify(depth, camera, range.min_depth_m, range.max_depth_m, 1, memory, map);
+    return map;
+  };
   Segmenter segmenter(range);
   Segmentation seen;
-  segmenter.segment(
-      image.depth, camera, [&map]() -> const RoomMap& { return map; },
-      ExpectedPeople(static_cast<std::size_t>(most_people)), seen);
+  segmenter.segment(image.depth, camera, look, ExpectedPeople(static_cast<std::size_t>(most_people)), seen);
   Counts counts;
   for (std::size_t i = 0; i < image.labels.data.size(); ++i) {
     bool in = false;

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "libtracker/segment/depth_noise.h"
+#include "libtracker/segment/boards.h"
 
 namespace depthmocap {
 
@@ -34,9 +34,6 @@ constexpr float kWidest_m = 2.2F;
 constexpr float kMinEvidence = 0.6F;
 // Mean logarithm of the odds of a person beyond doubt; less counts less in proportion.
 constexpr float kPlainEvidence = 2.0F;
-// [m] Standard deviation across the surface of a door or the front of a cupboard, to which depth noise adds
-// (kDepthNoise_per_m); a body's is 4 cm and more.
-constexpr float kPanelThickness_m = 0.012F;
 // [m] The same below which nothing in a room is a person, however much it looks like one. Of 59 people in rendered
 // rooms the flattest had 2.7 cm; cupboards and pictures on walls that were taken for people had 0.9 and 1.0 cm.
 constexpr float kFlat_m = 0.018F;
@@ -59,10 +56,6 @@ constexpr int kMinActorCells = 12;
 constexpr float kAlike = 0.1F;
 // Share of the actor's usual area: less may be a hand that was taken for the actor's.
 constexpr float kRemnant = 0.25F;
-
-bool isPanel(const Component& c) {
-  return c.thickness_m < kPanelThickness_m + kDepthNoise_per_m * c.mean.z() * c.mean.z();
-}
 
 // Where only people should be left, every shape is a person's but that of a board that was held before them.
 float cutOutScore(const Component& c) {
@@ -90,16 +83,23 @@ float nearness(const Component& c, const ExpectedActor& expected) {
 
 }  // namespace
 
-bool isSparse(const CoarseCloud& cloud) {
-  return cloud.valid_count < kCutOutShare * static_cast<double>(cloud.points.size());
+bool isSparse(const CoarseCloud& cloud, int but) {
+  return cloud.valid_count - but < kCutOutShare * static_cast<double>(cloud.points.size());
 }
 
-bool mayBeCutOut(const CoarseCloud& cloud, const std::vector<Component>& components) {
-  return isSparse(cloud) && std::all_of(components.begin(), components.end(), [&](const Component& c) {
-           const bool is_large = c.cells >= kLargeShare * cloud.valid_count;
-           return !is_large ||
-                  (c.widthX() <= kPersonBox_m && c.height() <= kPersonBox_m && c.depthZ() <= kPersonDepth_m);
-         });
+bool mayBeCutOut(const CoarseCloud& cloud, const std::vector<Component>& components,
+                 const std::vector<std::uint8_t>& is_board) {
+  int boards = 0;
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    const Component& c = components[k];
+    if (is_board[k] != 0) {
+      boards += c.cells;
+    } else if (c.cells >= kLargeShare * cloud.valid_count &&
+               (c.widthX() > kPersonBox_m || c.height() > kPersonBox_m || c.depthZ() > kPersonDepth_m)) {
+      return false;
+    }
+  }
+  return isSparse(cloud, boards);
 }
 
 bool showsOnlyPeople(const RoomMap& map) {

@@ -10,12 +10,13 @@
 
 namespace depthmocap {
 
-// True when the background may have been removed already: less than half of the image is measured, and every large
-// component (15 % of the measured cells or more) fits into a person's box (2.4 m wide and high, 2 m deep). Raw stereo
-// and yards do so, too.
-bool mayBeCutOut(const CoarseCloud& cloud, const std::vector<Component>& components);
-// Less than half of the image is measured.
-bool isSparse(const CoarseCloud& cloud);
+// True when the background may have been removed already: beside boards (1 in `is_board`, one per component) less than
+// half of the image is measured, and every large component (15 % of the measured cells or more) fits into a person's
+// box (2.4 m wide and high, 2 m deep). Raw stereo and yards do so, too.
+bool mayBeCutOut(const CoarseCloud& cloud, const std::vector<Component>& components,
+                 const std::vector<std::uint8_t>& is_board);
+// Less than half of the image is measured, `but` cells aside.
+bool isSparse(const CoarseCloud& cloud, int but = 0);
 // Whether nearly all that is measured looks like people to the room classifier.
 bool showsOnlyPeople(const RoomMap& map);
 

@@ -9,6 +9,7 @@
 
 #include "depthmocap/error.h"
 #include "libtracker/core/check.h"
+#include "libtracker/segment/boards.h"
 #include "libtracker/segment/choose_person.h"
 #include "libtracker/segment/coarse_cloud.h"
 #include "libtracker/segment/components.h"
@@ -110,9 +111,11 @@ struct Segmenter::Impl {
   FloorFinder floor_finder;
   std::optional<Floor> floor;
   double floor_share_when_found = 0;
-  int frames_since_floor = -1;  // -1: not looked for yet
-  bool cut_out = false;         // the background was removed before
-  int frames_since_look = 0;    // with a removed background
+  int frames_since_floor = -1;         // -1: not looked for yet
+  bool cut_out = false;                // the background was removed before
+  int frames_since_look = -1;          // for a removed background, where looking costs; -1: not looked yet
+  std::vector<std::uint8_t> is_board;  // one per component
+  DepthImage without_boards;
 
   // One per component.
   std::vector<float> component_evidence;
@@ -134,7 +137,7 @@ struct Segmenter::Impl {
   void recallHidden(const ExpectedActor& expected, Identity who);
   void removeRoom(const RoomMap& map);
   void findComponents(const DepthImage& depth, const RoomLook& look);
-  bool findCutOut(const RoomLook& look);
+  bool findCutOut(const DepthImage& depth, const RoomLook& look);
   void weighComponents();
   void findMissing(const ExpectedPeople& expected, std::size_t but);
   Choice choose(const ExpectedActor* expected, Identity who);
@@ -207,25 +210,29 @@ void Segmenter::Impl::removeRoom(const RoomMap& map) {
   weighComponents();
 }
 
-// Whether the background was removed; then the pieces are found. What was so is looked at again now and then only.
-bool Segmenter::Impl::findCutOut(const RoomLook& look) {
-  if (!isSparse(cloud)) return false;
+// Whether the background was removed; then the pieces are found. What was so is looked at again now and then only. The
+// room classifier does not know people behind a board in an otherwise empty picture: boards are taken away first.
+bool Segmenter::Impl::findCutOut(const DepthImage& depth, const RoomLook& look) {
+  const bool is_due = frames_since_look < 0 || ++frames_since_look >= config.plane_interval;
+  if (!is_due && !cut_out && !isSparse(cloud)) return false;
   keep.assign(cloud.points.size(), 1);
   finder.find(cloud, keep, config.cluster_gap_m, Eigen::Vector3f(0, -1, 0), known);
-  if (!mayBeCutOut(cloud, finder.components())) return false;
-  if (cut_out && ++frames_since_look < config.plane_interval) return true;
-  frames_since_look = 0;
-  return showsOnlyPeople(look());
+  const bool has_boards = findBoards(cloud, finder.components(), is_board) > 0;
+  if (is_due) frames_since_look = 0;
+  if (!mayBeCutOut(cloud, finder.components(), is_board)) return false;
+  if (!is_due && (cut_out || has_boards)) return cut_out;
+  if (has_boards) takeAwayBoards(depth, cloud, finder, is_board, without_boards);
+  return showsOnlyPeople(look(has_boards ? without_boards : depth));
 }
 
 // The pieces that may be people's, and how much they look like people.
 void Segmenter::Impl::findComponents(const DepthImage& depth, const RoomLook& look) {
-  cut_out = findCutOut(look);
+  cut_out = findCutOut(depth, look);
   if (cut_out) {
     off_floor = keep;
   } else {
     keep.resize(cloud.points.size());
-    removeRoom(look());
+    removeRoom(look(depth));
   }
   const double image_scale = static_cast<double>(depth.data.size()) / kReferencePixels;
   const ChoiceContext context{cut_out, config.min_pixels * image_scale / (cloud.stride * cloud.stride),

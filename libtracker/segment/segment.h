@@ -38,8 +38,8 @@ struct ExpectedActor {
 using ExpectedPeople = std::vector<std::optional<ExpectedActor>>;
 inline constexpr int kMostPeople = 6;
 
-// Asks the room classifier about the present image. Valid until the next image.
-using RoomLook = std::function<const RoomMap&()>;
+// Asks the room classifier about a picture of the camera. The answer is valid until the next question.
+using RoomLook = std::function<const RoomMap&(const DepthImage& depth)>;
 
 // One person's part of the image.
 struct PersonRegion {
@@ -80,11 +80,11 @@ class Segmenter {
   Segmenter(Segmenter&&) noexcept;
   Segmenter& operator=(Segmenter&&) noexcept;
 
-  // `depth` has the camera's size; `look` says what the room classifier says of it, and is not called
-  // where the background was removed a moment ago. `expected` (1 .. kMostPeople): each is
-  // looked for, in this order; who may be anybody is taken from those who are left, the plainest first, and a place
-  // whose person changes must be "anybody" in between: then who was there is forgotten. out.people has as many, in the
-  // same order. Reuses the memory of `out`.
+  // `depth` has the camera's size; `look` says what the room classifier says of it, or of it
+  // without its boards, and is not called where the background was removed a moment ago. `expected` (1 .. kMostPeople):
+  // each is looked for, in this order; who may be anybody is taken from those who are left, the plainest first, and a
+  // place whose person changes must be "anybody" in between: then who was there is forgotten. out.people has as many,
+  // in the same order. Reuses the memory of `out`.
   void segment(const DepthImage& depth, const CameraModel& camera, const RoomLook& look, const ExpectedPeople& expected,
                Segmentation& out);
 

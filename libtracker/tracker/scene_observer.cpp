@@ -12,12 +12,12 @@ SceneObserver::SceneObserver(const Models& models, const CameraModel& camera, co
       segmenter_(config.segment) {}
 
 const Segmentation& SceneObserver::segment(const DepthFrame& frame, const ExpectedPeople& expected) {
-  bool looked = false;
-  const auto ask = [&]() -> const RoomMap& {
-    if (!looked) {
-      room_->classify(frame.depth, camera_, range_.min_depth_m, range_.max_depth_m, threads_, room_memory_, map_);
+  const DepthImage* looked_at = nullptr;
+  const auto ask = [&](const DepthImage& depth) -> const RoomMap& {
+    if (looked_at != &depth) {
+      room_->classify(depth, camera_, range_.min_depth_m, range_.max_depth_m, threads_, room_memory_, map_);
     }
-    looked = true;
+    looked_at = &depth;
     return map_;
   };
   const RoomLook look = std::ref(ask);  // no copy: nothing is allocated

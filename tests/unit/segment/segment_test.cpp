@@ -1,5 +1,7 @@
 #include "libtracker/segment/segment.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "depthmocap/error.h"
@@ -57,6 +59,29 @@ TEST(Segment, ABoardBeforeThePersonIsNotThePersonWhereTheBackgroundIsRemoved) {
   Segmentation result;
   segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.9);
+}
+
+// The network of rooms says so of people behind a board in an otherwise empty picture.
+TEST(Segment, APersonBehindABoardIsFoundThoughTheClassifierIsLostWhileItSeesTheBoard) {
+  TestScene scene;
+  scene.noise = 0.001;
+  scene.addPerson(kActor, kFeet);
+  constexpr int kBoard = 9;
+  scene.addPanel(kBoard, Eigen::Vector3d(-0.42, 0, 1.0), 0.2, 0.5);
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Image<int> lost = objects;
+  for (int& object : lost.data) object = object == kActor ? kBoard : object;
+  int looks = 0;
+  const auto look = [&, sure = mapOf(objects), unsure = mapOf(lost)](const DepthImage& seen) -> const RoomMap& {
+    ++looks;
+    return std::ranges::equal(seen.data, depth.data) ? unsure(seen) : sure(seen);
+  };
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  for (int frame = 0; frame < 3; ++frame) segmenter.segment(depth, scene.camera, look, {std::nullopt}, result);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.9);
+  EXPECT_EQ(looks, 1);  // from then on it is known that the background was removed
 }
 
 TEST(Segment, SpecklesAreDroppedAndThePixelCountIsOfTheMask) {

@@ -115,23 +115,27 @@ class TestScene {
 // Objects from here on are no people.
 inline constexpr int kFirstThing = 3;
 
-// What a perfect room classifier says of a picture: every eighth pixel, things taken for shell.
+// What a perfect room classifier says of a picture: every eighth pixel that is measured, things taken for shell.
 inline RoomLook mapOf(const Image<int>& objects) {
-  RoomMap map;
-  map.stride = 8;
-  map.offset = 2;
-  map.width = (objects.width - map.offset + map.stride - 1) / map.stride;
-  map.height = (objects.height - map.offset + map.stride - 1) / map.stride;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const int object = objects.at(x * map.stride + map.offset, y * map.stride + map.offset);
-      const float odds = object == 0 ? 0.0F : object < kFirstThing ? 3.0F : -3.0F;
-      map.person.push_back(odds);
-      map.shell.push_back(-odds);
-      map.measured.push_back(object == 0 ? 0 : 1);
+  return [objects, map = RoomMap{}](const DepthImage& depth) mutable -> const RoomMap& {
+    map = {};
+    map.stride = 8;
+    map.offset = 2;
+    map.width = (objects.width - map.offset + map.stride - 1) / map.stride;
+    map.height = (objects.height - map.offset + map.stride - 1) / map.stride;
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const int column = x * map.stride + map.offset;
+        const int row = y * map.stride + map.offset;
+        const int object = depth.at(column, row) > 0 ? objects.at(column, row) : 0;
+        const float odds = object == 0 ? 0.0F : object < kFirstThing ? 3.0F : -3.0F;
+        map.person.push_back(odds);
+        map.shell.push_back(-odds);
+        map.measured.push_back(object == 0 ? 0 : 1);
+      }
     }
-  }
-  return [map]() -> const RoomMap& { return map; };
+    return map;
+  };
 }
 
 // Intersection over union of a mask with one object's pixels.
