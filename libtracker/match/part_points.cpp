@@ -11,9 +11,16 @@ namespace {
 constexpr std::size_t kLanes = 8;  // points that are compared at once
 constexpr float kFar_m = 1e6F;     // [m] where no point is
 
+// What chooses between clones runs while the program is loaded, before ThreadSanitizer is ready for it.
+#ifdef __SANITIZE_THREAD__
+#define DMC_CLONES
+#else
+#define DMC_CLONES [[gnu::target_clones("avx2", "default")]]
+#endif
+
 // The least squared distance [m^2] of `count` points, a multiple of kLanes, from p. The two clones round alike.
-[[gnu::target_clones("avx2", "default")]] float leastSquare(const float* x, const float* y, const float* z,
-                                                            std::size_t count, float px, float py, float pz) {
+DMC_CLONES float leastSquare(const float* x, const float* y, const float* z, std::size_t count, float px, float py,
+                             float pz) {
   float least[kLanes];
   for (float& lane : least) lane = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < count; i += kLanes) {
