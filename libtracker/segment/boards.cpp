@@ -10,8 +10,8 @@ namespace {
 // [m] Standard deviation across the surface of a door or the front of a cupboard, to which depth noise adds
 // (kDepthNoise_per_m); a body's is 4 cm and more.
 constexpr float kPanelThickness_m = 0.012F;
-// Share of the measured cells from which a panel is a board. Chosen by hand: no comparison of values is on record.
-constexpr double kBoardShare = 0.15;
+// Share of the measured cells from which a piece is large. Chosen by hand: no comparison of values is on record.
+constexpr double kLargeShare = 0.15;
 
 // Nothing is measured any more in the pixels that a cell stands for.
 void clearCell(const CoarseCloud& cloud, int cx, int cy, DepthImage& depth) {
@@ -28,6 +28,10 @@ bool isPanel(const Component& component) {
   return component.thickness_m < kPanelThickness_m + kDepthNoise_per_m * component.mean.z() * component.mean.z();
 }
 
+bool isLarge(const Component& component, const CoarseCloud& cloud) {
+  return component.cells >= kLargeShare * cloud.valid_count;
+}
+
 int findBoards(const CoarseCloud& cloud, const std::vector<Component>& components,
                std::vector<std::uint8_t>& is_board) {
   is_board.assign(components.size(), 0);
@@ -38,7 +42,7 @@ int findBoards(const CoarseCloud& cloud, const std::vector<Component>& component
   int cells = 0;
   for (std::size_t k = 0; main != nullptr && k < components.size(); ++k) {
     const Component& c = components[k];
-    if (!isPanel(c) || c.cells < kBoardShare * cloud.valid_count || c.mean.z() >= main->mean.z()) continue;
+    if (!isPanel(c) || !isLarge(c, cloud) || c.mean.z() >= main->mean.z()) continue;
     is_board[k] = 1;
     cells += c.cells;
   }

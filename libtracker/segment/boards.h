@@ -11,6 +11,9 @@ namespace depthmocap {
 // A flat thing: a door, the front of a cupboard, a board that is held before people. Small pieces are, too.
 bool isPanel(const Component& component);
 
+// Takes 15 % of the measured cells or more.
+bool isLarge(const Component& component, const CoarseCloud& cloud);
+
 // Large panels that stand before everything else: 1 for each component that is one. Returns how many cells they take.
 int findBoards(const CoarseCloud& cloud, const std::vector<Component>& components, std::vector<std::uint8_t>& is_board);
 

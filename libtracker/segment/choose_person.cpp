@@ -15,8 +15,6 @@ namespace {
 
 // Share of the image's cells that are measured: with fewer the background may have been removed.
 constexpr double kCutOutShare = 0.5;
-// Share of the measured cells: components from here on must fit a person's box where the background is removed.
-constexpr double kLargeShare = 0.15;
 // [m] Greatest width and height of a person where the background is removed.
 constexpr float kPersonBox_m = 2.4F;
 // [m] Greatest extent of a person along the optical axis.
@@ -94,7 +92,7 @@ bool mayBeCutOut(const CoarseCloud& cloud, const std::vector<Component>& compone
     const Component& c = components[k];
     if (is_board[k] != 0) {
       boards += c.cells;
-    } else if (c.cells >= kLargeShare * cloud.valid_count &&
+    } else if (isLarge(c, cloud) &&
                (c.widthX() > kPersonBox_m || c.height() > kPersonBox_m || c.depthZ() > kPersonDepth_m)) {
       return false;
     }

@@ -137,7 +137,7 @@ struct Segmenter::Impl {
   void recallHidden(const ExpectedActor& expected, Identity who);
   void removeRoom(const RoomMap& map);
   void findComponents(const DepthImage& depth, const RoomLook& look);
-  bool findCutOut(const DepthImage& depth, const RoomLook& look);
+  bool findCutOut(const DepthImage& depth, const RoomLook& look, const RoomMap*& map);
   void weighComponents();
   void findMissing(const ExpectedPeople& expected, std::size_t but);
   Choice choose(const ExpectedActor* expected, Identity who);
@@ -212,7 +212,8 @@ void Segmenter::Impl::removeRoom(const RoomMap& map) {
 
 // Whether the background was removed; then the pieces are found. What was so is looked at again now and then only. The
 // room classifier does not know people behind a board in an otherwise empty picture: boards are taken away first.
-bool Segmenter::Impl::findCutOut(const DepthImage& depth, const RoomLook& look) {
+// `map`: of the whole picture, if that was looked at.
+bool Segmenter::Impl::findCutOut(const DepthImage& depth, const RoomLook& look, const RoomMap*& map) {
   const bool is_due = frames_since_look < 0 || ++frames_since_look >= config.plane_interval;
   if (!is_due && !cut_out && !isSparse(cloud)) return false;
   keep.assign(cloud.points.size(), 1);
@@ -221,18 +222,23 @@ bool Segmenter::Impl::findCutOut(const DepthImage& depth, const RoomLook& look) 
   if (is_due) frames_since_look = 0;
   if (!mayBeCutOut(cloud, finder.components(), is_board)) return false;
   if (!is_due && (cut_out || has_boards)) return cut_out;
-  if (has_boards) takeAwayBoards(depth, cloud, finder, is_board, without_boards);
-  return showsOnlyPeople(look(has_boards ? without_boards : depth));
+  if (has_boards) {
+    takeAwayBoards(depth, cloud, finder, is_board, without_boards);
+    return showsOnlyPeople(look(without_boards));
+  }
+  map = &look(depth);
+  return showsOnlyPeople(*map);
 }
 
 // The pieces that may be people's, and how much they look like people.
 void Segmenter::Impl::findComponents(const DepthImage& depth, const RoomLook& look) {
-  cut_out = findCutOut(depth, look);
+  const RoomMap* map = nullptr;
+  cut_out = findCutOut(depth, look, map);
   if (cut_out) {
     off_floor = keep;
   } else {
     keep.resize(cloud.points.size());
-    removeRoom(look(depth));
+    removeRoom(map != nullptr ? *map : look(depth));
   }
   const double image_scale = static_cast<double>(depth.data.size()) / kReferencePixels;
   const ChoiceContext context{cut_out, config.min_pixels * image_scale / (cloud.stride * cloud.stride),

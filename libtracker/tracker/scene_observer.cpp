@@ -12,12 +12,8 @@ SceneObserver::SceneObserver(const Models& models, const CameraModel& camera, co
       segmenter_(config.segment) {}
 
 const Segmentation& SceneObserver::segment(const DepthFrame& frame, const ExpectedPeople& expected) {
-  const DepthImage* looked_at = nullptr;
   const auto ask = [&](const DepthImage& depth) -> const RoomMap& {
-    if (looked_at != &depth) {
-      room_->classify(depth, camera_, range_.min_depth_m, range_.max_depth_m, threads_, room_memory_, map_);
-    }
-    looked_at = &depth;
+    room_->classify(depth, camera_, range_.min_depth_m, range_.max_depth_m, threads_, room_memory_, map_);
     return map_;
   };
   const RoomLook look = std::ref(ask);  // no copy: nothing is allocated
