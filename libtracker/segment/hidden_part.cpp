@@ -9,8 +9,6 @@ namespace {
 
 // [cells] Widest unmeasured seam at an edge, across which something in front is looked for.
 constexpr int kReach = 2;
-// [m] What is nearer by this is in front: more than depth noise.
-constexpr float kInFront_m = 0.15F;
 // [cells] Least of the outline that something covers.
 constexpr int kMinCells = 8;
 // Least covered share of the actor's cells.

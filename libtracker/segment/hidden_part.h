@@ -8,6 +8,9 @@
 
 namespace depthmocap {
 
+// [m] What is nearer by this is in front: more than depth noise.
+inline constexpr float kInFront_m = 0.15F;
+
 // True where something nearer covers a part of the actor: along more than a few cells of the outline the neighbour is
 // in front of it. `keep`: 0 for floor and walls, which hide nobody; `labels` each cell's component, `selected` 1 for
 // the actor's.

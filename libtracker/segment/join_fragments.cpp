@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libtracker/segment/hidden_part.h"
+
 namespace depthmocap {
 
 namespace {
@@ -43,6 +45,8 @@ constexpr float kPoleGap_m = 0.25F;
 constexpr std::size_t kSamples = 250;
 // [cells] Silhouettes this near in the image touch.
 constexpr int kContactReach = 3;
+// [m] By how much a limb leads before or behind the body on the other side of what hides it.
+constexpr float kLimbDepth_m = 0.3F;
 // [cells] Least number that touch with the actor in front.
 constexpr int kContactCells = 3;
 
@@ -94,6 +98,9 @@ struct FragmentJoiner::Search {
 
   // True where the piece's silhouette meets the actor's with the actor in front: the rest of the piece is behind it.
   [[nodiscard]] bool comesOutFromBehind(std::size_t piece) const;
+  // True where the piece goes on above, behind something nearer, as the actor: a shin under a table's edge.
+  [[nodiscard]] bool goesOnBehindThings(std::size_t piece) const;
+  [[nodiscard]] bool meetsActorAbove(int x, int top, float z_m) const;
   // How far from the rest of the body the piece may lie [m].
   [[nodiscard]] float reachOf(std::size_t piece) const;
 };
@@ -120,6 +127,35 @@ bool FragmentJoiner::Search::comesOutFromBehind(std::size_t piece) const {
   return false;
 }
 
+// Whether the first of the actor straight above this cell comes after nothing but what is nearer.
+bool FragmentJoiner::Search::meetsActorAbove(int x, int top, float z_m) const {
+  bool covered = false;
+  for (int y = top - 1; y >= 0; --y) {
+    const std::size_t j = cloud.index(x, y);
+    const float z = cloud.points[j].z();
+    if (labels[j] != kNoComponent && selected[static_cast<std::size_t>(labels[j])] != 0) {
+      return covered && std::abs(z - z_m) < kLimbDepth_m;
+    }
+    if (z <= 0) continue;
+    if (z > z_m - kInFront_m) return false;
+    covered = true;
+  }
+  return false;
+}
+
+bool FragmentJoiner::Search::goesOnBehindThings(std::size_t piece) const {
+  int columns = 0;
+  for (int x = 0; x < cloud.width; ++x) {
+    for (int y = 0; y < cloud.height; ++y) {
+      const std::size_t i = cloud.index(x, y);
+      if (labels[i] != static_cast<std::int32_t>(piece)) continue;
+      if (meetsActorAbove(x, y, cloud.points[i].z()) && ++columns >= kContactCells) return true;
+      break;
+    }
+  }
+  return false;
+}
+
 float FragmentJoiner::Search::reachOf(std::size_t piece) const {
   const Component& c = components[piece];
   if (c.who == who) return standsBeside(c, body) ? kPoleGap_m : kArmReach_m;
@@ -129,7 +165,8 @@ float FragmentJoiner::Search::reachOf(std::size_t piece) const {
   // comes in at the side of the picture is somebody else.
   if (c.touches_side && !body.touches_side) return kRoomGap_m;
   if (!isLarge(c) && c.mean.z() < body.mean.z() && isAboveTheFloor(c, body)) return kArmReach_m;
-  return couldBeHiddenLimb(c, body) && comesOutFromBehind(piece) ? kHiddenLimbGap_m : kRoomGap_m;
+  const bool is_hidden_limb = couldBeHiddenLimb(c, body) && (comesOutFromBehind(piece) || goesOnBehindThings(piece));
+  return is_hidden_limb ? kHiddenLimbGap_m : kRoomGap_m;
 }
 
 void FragmentJoiner::samplePoints(const CoarseCloud& cloud, const ComponentFinder& found) {

@@ -29,14 +29,11 @@ float limited(float odds) {
 
 }  // namespace
 
-void PersonEvidence::find(const CoarseCloud& cloud, const RoomMap& map, const std::vector<Identity>& known,
-                          double gap_m) {
+void PersonEvidence::read(const CoarseCloud& cloud, const RoomMap& map, const std::vector<Identity>& known) {
   readMap(cloud, map);
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i] != kUnknown && cloud.points[i].z() > 0) odds_[i] += kKnownOdds;
   }
-  measureSteps(cloud, static_cast<float>(gap_m));
-  smooth(cloud);
 }
 
 // Along one axis of the cloud: the one or two cells of the map around each of its cells.
@@ -98,7 +95,7 @@ std::size_t PersonEvidence::cellFor(const CoarseCloud& cloud, const RoomMap& map
   return chosen;
 }
 
-void PersonEvidence::measureSteps(const CoarseCloud& cloud, float gap_m) {
+void PersonEvidence::measureSteps(const CoarseCloud& cloud, const std::vector<std::uint8_t>& off_floor, float gap_m) {
   right_.setZero(cloud.height, cloud.width);
   down_.setZero(cloud.width, cloud.height);
   for (int y = 0; y < cloud.height; ++y) {
@@ -110,7 +107,7 @@ void PersonEvidence::measureSteps(const CoarseCloud& cloud, float gap_m) {
       const auto share = [&](std::size_t j) {
         const float there = cloud.points[j].z();
         const float step = std::abs(z - there) * per_gap;
-        return there > 0 && step < 1.0F ? kPassedOn * (1.0F - step * step) : 0.0F;
+        return there > 0 && step < 1.0F && off_floor[i] == off_floor[j] ? kPassedOn * (1.0F - step * step) : 0.0F;
       };
       if (x + 1 < cloud.width) right_(y, x) = share(i + 1);
       if (y + 1 < cloud.height) down_(x, y) = share(i + static_cast<std::size_t>(cloud.width));
@@ -121,7 +118,8 @@ void PersonEvidence::measureSteps(const CoarseCloud& cloud, float gap_m) {
 // Each row, then each column, becomes the mean of its cells weighted by the product of the shares on the way (a
 // recursive edge-preserving filter: Gastal and Oliveira 2011). All columns go at once, and rows as columns of the
 // turned image, so that vectors hold neighbours.
-void PersonEvidence::smooth(const CoarseCloud& cloud) {
+void PersonEvidence::smooth(const CoarseCloud& cloud, const std::vector<std::uint8_t>& off_floor, double gap_m) {
+  measureSteps(cloud, off_floor, static_cast<float>(gap_m));
   Eigen::Map<Eigen::ArrayXXf> odds(odds_.data(), cloud.width, cloud.height);
   image_ = odds;
   for (int round = 0; round < kRounds; ++round) {

@@ -12,13 +12,17 @@ namespace depthmocap {
 
 // How much speaks for a person at each cell of a coarse cloud: what the room classifier says, what the frame before
 // knew, and what neighbours on the same surface say. A sofa that somebody sits on belongs to the same surface only
-// as far as their borders are smooth: evidence fades with the distance along the surface and ends at steps.
+// as far as their borders are smooth: evidence fades with the distance along the surface and ends at steps. Feet and
+// the floor are different surfaces.
 class PersonEvidence {
  public:
-  // `known`: one identity per cell, or empty. `gap_m`: neighbours farther apart are different surfaces. Reuses memory.
-  void find(const CoarseCloud& cloud, const RoomMap& map, const std::vector<Identity>& known, double gap_m);
+  // `known`: one identity per cell, or empty. Reuses memory.
+  void read(const CoarseCloud& cloud, const RoomMap& map, const std::vector<Identity>& known);
+  // After `read`. `off_floor`: one per cell, 0 for the floor. `gap_m`: neighbours farther apart are different surfaces.
+  void smooth(const CoarseCloud& cloud, const std::vector<std::uint8_t>& off_floor, double gap_m);
 
-  // One per cell: logarithm of the odds that it shows a person; 0 where nothing is measured.
+  // One per cell: logarithm of the odds that it shows a person; 0 where nothing is measured. Each for itself after
+  // `read`, with its neighbours' after `smooth`.
   [[nodiscard]] const std::vector<float>& odds() const { return odds_; }
   // One per cell: logarithm of the odds that it is floor, wall or ceiling, by the classifier.
   [[nodiscard]] const std::vector<float>& shell() const { return shell_; }
@@ -40,8 +44,7 @@ class PersonEvidence {
   void readMap(const CoarseCloud& cloud, const RoomMap& map);
   static std::size_t cellFor(const CoarseCloud& cloud, const RoomMap& map, float z, const Around& column,
                              const Around& row);
-  void measureSteps(const CoarseCloud& cloud, float gap_m);
-  void smooth(const CoarseCloud& cloud);
+  void measureSteps(const CoarseCloud& cloud, const std::vector<std::uint8_t>& off_floor, float gap_m);
   void smoothColumns(const Eigen::ArrayXXf& share, Eigen::ArrayXXf& values);
 
   std::vector<float> odds_;

@@ -14,6 +14,7 @@
 #include "libtracker/segment/coarse_cloud.h"
 #include "libtracker/segment/components.h"
 #include "libtracker/segment/contest.h"
+#include "libtracker/segment/expected_body.h"
 #include "libtracker/segment/find_floor.h"
 #include "libtracker/segment/hidden_part.h"
 #include "libtracker/segment/identity.h"
@@ -124,7 +125,8 @@ struct Segmenter::Impl {
   std::vector<std::uint8_t> selected;
 
   IdentityMemory memory;
-  std::vector<Identity> known;  // one per cell
+  std::vector<Identity> known;      // one per cell
+  std::vector<Identity> explained;  // likewise; unknown where the owner's expected pose has no surface
   std::vector<Followed> people;
   std::vector<Choice> choices;                // one per person
   std::vector<const ExpectedActor*> missing;  // people who are out of view for the most part
@@ -135,6 +137,7 @@ struct Segmenter::Impl {
   void updateFloor();
   void recallPeople(const ExpectedPeople& expected);
   void recallHidden(const ExpectedActor& expected, Identity who);
+  void explainKnown(const ExpectedPeople& expected);
   void removeRoom(const RoomMap& map);
   void findComponents(const DepthImage& depth, const RoomLook& look);
   bool findCutOut(const DepthImage& depth, const RoomLook& look, const RoomMap*& map);
@@ -187,6 +190,19 @@ void Segmenter::Impl::recallPeople(const ExpectedPeople& expected) {
       recallHidden(*expected[i], static_cast<Identity>(i + 1));
     }
   }
+  explainKnown(expected);
+}
+
+// What was somebody's and lies where their pose has no surface may be a thing that they touch.
+void Segmenter::Impl::explainKnown(const ExpectedPeople& expected) {
+  explained = known;
+  for (std::size_t person = 0; person < expected.size(); ++person) {
+    if (!expected[person] || !expected[person]->joints_camera) continue;
+    const ExpectedBody body(static_cast<Identity>(person + 1), *expected[person]->joints_camera);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i] == body.who() && cloud.points[i].z() > 0 && !body.explains(cloud.points[i])) explained[i] = kUnknown;
+    }
+  }
 }
 
 // Surface that appears anew where a hidden person is expected is that person's, also where it touches another.
@@ -201,9 +217,10 @@ void Segmenter::Impl::recallHidden(const ExpectedActor& expected, Identity who) 
 }
 
 void Segmenter::Impl::removeRoom(const RoomMap& map) {
-  evidence.find(cloud, map, known, config.cluster_gap_m);
+  evidence.read(cloud, map, explained);
   updateFloor();
   keepOffFloor(cloud, floor, config.floor_distance_m, off_floor);
+  evidence.smooth(cloud, off_floor, config.cluster_gap_m);
   for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = off_floor[i] != 0 && evidence.odds()[i] > 0 ? 1 : 0;
   finder.find(cloud, keep, config.cluster_gap_m, upwards(), known);
   splitter.split(cloud, upwards(), known, finder);

@@ -99,7 +99,8 @@ TEST(PersonEvidence, IsTheWeightedMeanAlongSurfaces) {
     smoothLines(scene.cloud, false, expected);
   }
   PersonEvidence evidence;
-  evidence.find(even.cloud, even.map, known, kGap_m);
+  evidence.read(even.cloud, even.map, known);
+  evidence.smooth(even.cloud, std::vector<std::uint8_t>(known.size(), 1), kGap_m);
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(evidence.odds()[i], expected[i], 1e-4) << i;
 }
 
@@ -113,9 +114,31 @@ TEST(PersonEvidence, TakesTheCellOfTheMapAtItsDepth) {
   scene.map.person.assign(scene.map.person.size(), -2.0F);
   scene.map.person[0] = scene.map.person[static_cast<std::size_t>(scene.map.width)] = 2.0F;  // at (0, 0) and (0, 2)
   PersonEvidence evidence;
-  evidence.find(scene.cloud, scene.map, std::vector<Identity>(scene.cloud.points.size(), kUnknown), kGap_m);
+  evidence.read(scene.cloud, scene.map, std::vector<Identity>(scene.cloud.points.size(), kUnknown));
+  evidence.smooth(scene.cloud, std::vector<std::uint8_t>(scene.cloud.points.size(), 1), kGap_m);
   EXPECT_NEAR(evidence.odds()[scene.cloud.index(1, 1)], 2.0, 1e-5) << "between (0, 0) and (2, 2)";
   EXPECT_NEAR(evidence.odds()[scene.cloud.index(2, 1)], -2.0, 1e-5);
+}
+
+// A foot stands on the floor without a step in depth; what the classifier says of the floor is not about the foot.
+TEST(PersonEvidence, OfFeetIsNotThatOfTheFloor) {
+  Scene scene(7);
+  for (auto& p : scene.cloud.points) p.z() = 3.0F;
+  scene.map.person.assign(scene.map.person.size(), -3.0F);
+  for (int x = 0; x < scene.map.width; ++x) scene.map.person[static_cast<std::size_t>(x)] = 1.0F;
+  std::vector<std::uint8_t> off_floor(scene.cloud.points.size(), 0);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < scene.cloud.width; ++x) off_floor[scene.cloud.index(x, y)] = 1;
+  }
+  const std::vector<Identity> nobody(scene.cloud.points.size(), kUnknown);
+  PersonEvidence evidence;
+  evidence.read(scene.cloud, scene.map, nobody);
+  evidence.smooth(scene.cloud, std::vector<std::uint8_t>(off_floor.size(), 1), kGap_m);
+  const float without = evidence.odds()[scene.cloud.index(5, 0)];
+  evidence.read(scene.cloud, scene.map, nobody);
+  evidence.smooth(scene.cloud, off_floor, kGap_m);
+  EXPECT_LT(without, 0);
+  EXPECT_NEAR(evidence.odds()[scene.cloud.index(5, 0)], 1.0, 1e-5);
 }
 
 }  // namespace

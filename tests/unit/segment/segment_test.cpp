@@ -131,6 +131,41 @@ TEST(Segment, LegBehindTheOtherBelongsToTheActorInARoom) {
   EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
 }
 
+// Somebody of whom a table's edge hides the knees.
+TestScene behindATable() {
+  TestScene scene;
+  addRoom(scene);
+  scene.addPerson(kActor, kFeet);
+  scene.addPanel(kRoom, {kFeet.x(), kFeet.y() - 0.75, kFeet.z() - 0.6}, 0.8, 0.13);
+  return scene;
+}
+
+TEST(Segment, LegsThatGoOnBelowATableBelongToTheActor) {
+  const TestScene scene = behindATable();
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  std::optional<ExpectedActor> expected;
+  for (int frame = 0; frame < 3; ++frame) {
+    segmenter.segment(depth, scene.camera, mapOf(objects), {expected}, result);
+    EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95) << "frame " << frame;
+    expected = ExpectedActor{.p_camera = result.actor().centroid_camera};
+  }
+}
+
+// Seen through the gap below the table, at the depth of the actor but with the floor between both.
+TEST(Segment, AThingBesideTheActorsLegsIsNoneOfThem) {
+  TestScene scene = behindATable();
+  scene.addEllipsoid(kOther, kFeet + Eigen::Vector3d(0.55, -0.25, 0.05), {0.10, 0.25, 0.10});
+  Image<int> objects;
+  const DepthImage depth = scene.render(&objects);
+  Segmenter segmenter{SegmentConfig{}};
+  Segmentation result;
+  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
+  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
+}
+
 TEST(Segment, NearerOfTwoPeopleIsTheActor) {
   TestScene scene;
   scene.addPerson(kActor, kFeet);
