@@ -1,5 +1,6 @@
 #include "libtracker/tracker/hidden_legs.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,6 +17,11 @@ constexpr double kSupposed = 0.2;
 constexpr int kFewestOfTrunk = 3;  // seen markers of head, neck, trunk that a leg is supposed below
 // [m] By how much sitting must fit better than standing.
 constexpr double kStandingBonus_m = 0.1;
+
+// Confidence from which a leg is where its marker is.
+constexpr double kPlainlySeen = 0.5;
+// [m] Farther from both postures a marker of little confidence is no leg's.
+constexpr double kStray_m = 0.3;
 
 constexpr std::array kLegParts = {Part::LeftUpperLeg, Part::RightUpperLeg, Part::LeftLowerLeg, Part::RightLowerLeg};
 constexpr std::array kTrunkParts = {Part::Head,          Part::Neck,      Part::Torso,     Part::LeftShoulder,
@@ -58,11 +64,19 @@ const MarkerSet& HiddenLegs::complete(const MarkerSet& seen_world, const Actor& 
   markers_ = seen_world;
   for (const Part part : kLegParts) {
     const int i = partIndex(part);
-    if (seen_world.seen(i)) continue;
+    if (seen_world.seen(i) && !isStray(seen_world, i, stands, sits)) continue;
     markers_.position.col(i) = guess.markers.position.col(i);
     markers_.confidence[i] = kSupposed;
   }
   return markers_;
+}
+
+// Little surface far from where the leg is in either posture: the hem of a coat, or a thing before the lap.
+bool HiddenLegs::isStray(const MarkerSet& seen, int part, const Guess& stands, const Guess& sits) {
+  const auto away = [&](const Guess& guess) {
+    return (seen.position.col(part) - guess.markers.position.col(part)).norm();
+  };
+  return seen.confidence[part] < kPlainlySeen && std::min(away(stands), away(sits)) > kStray_m;
 }
 
 // How legs in this posture agree with the floor and with the thighs and shins that are seen.

@@ -21,6 +21,7 @@ class HiddenLegs {
 
  private:
   struct Guess;
+  static bool isStray(const MarkerSet& seen, int part, const Guess& stands, const Guess& sits);
   Guess suppose(const Pose& posture, const MarkerSet& trunk, const MarkerSet& seen, const Actor& actor);
 
   bool cut_below_ = false;

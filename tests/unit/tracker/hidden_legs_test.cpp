@@ -65,6 +65,18 @@ TEST_F(HiddenLegsTest, SitWhereTheFloorIsNear) {
   EXPECT_LT(worstOf(legs_.complete(seen, actor_)), 1e-6);
 }
 
+// The hem of a coat or a bag before the lap: little surface that the classifier takes for shins.
+TEST_F(HiddenLegsTest, ALittleFarFromEitherPostureIsNoLeg) {
+  MarkerSet seen = seenAboveLegs(Pose::Zero());
+  const int shin = partIndex(Part::LeftLowerLeg);
+  seen.position.col(shin) = seen.position.col(partIndex(Part::Torso));
+  legs_.look(true, floor_);
+  seen.confidence[shin] = 0.2;
+  EXPECT_LT(worstOf(legs_.complete(seen, actor_)), 1e-6);
+  seen.confidence[shin] = 0.8;
+  EXPECT_EQ(legs_.complete(seen, actor_).confidence[shin], 0.8) << "plainly seen";
+}
+
 TEST_F(HiddenLegsTest, SitWhereTheThighsAreSeenLevel) {
   MarkerSet seen = seenAboveLegs(seated());
   for (const Part thigh : {Part::LeftUpperLeg, Part::RightUpperLeg}) {
