@@ -68,14 +68,14 @@ void DenseRefinement::look(const DepthImage& depth, const MaskImage& mask, bool 
   free_space_.observe(depth, mask, camera, R_world_camera);
 }
 
-double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q) {
+ExtentEvidence DenseRefinement::extent(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q) {
   heights_.clear();
   for (const auto& pixel : pixels.pixels) {
     const Eigen::Vector3d p_camera = camera_.unproject(pixel.x, pixel.y, static_cast<double>(pixel.depth_m));
     heights_.push_back(static_cast<float>(R_world_camera_.row(1) * p_camera));
   }
   const double observed_extent_m = trimmedExtent(heights_);
-  if (observed_extent_m < kMinExtent_m) return 0;
+  if (observed_extent_m < kMinExtent_m) return {};
   const auto scale = static_cast<float>(actor.stature_m() / actor.surface->stature_m);
   fk_.update(actor.skeleton, q);
   float lowest = std::numeric_limits<float>::max();
@@ -87,7 +87,9 @@ double DenseRefinement::extentRatio(const ClassifiedPixels& pixels, const Actor&
       highest = std::max(highest, static_cast<float>(y));
     }
   }
-  return highest > lowest ? observed_extent_m / (kSeenShare * static_cast<double>(highest - lowest)) : 0;
+  const auto height_m = static_cast<double>(highest - lowest);
+  if (height_m <= 0) return {};
+  return {observed_extent_m / (kSeenShare * height_m), height_m / actor.stature_m()};
 }
 
 void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor,

@@ -15,6 +15,12 @@
 
 namespace depthmocap {
 
+// How tall somebody stands.
+struct ExtentEvidence {
+  double ratio = 0;        // of the vertical extent that is measured over the model's
+  double uprightness = 0;  // the model's extent over its stature; 0 if too little is in view
+};
+
 // Beyond the paper: brings the body's surface to the measured points, as iterated closest points do: match, solve (5)
 // with the dense term, match again.
 class DenseRefinement {
@@ -52,9 +58,8 @@ class DenseRefinement {
     return std::span(pairs_.matches).subspan(pairs_.measured, pairs_.touched);
   }
 
-  // How much taller the measured person stands than the model at the solved pose: the ratio of their vertical extents.
-  // 0 if it cannot be told (too little of the person in view). Needs the whole person in view.
-  [[nodiscard]] double extentRatio(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q);
+  // Needs the whole person in view, at the solved pose.
+  [[nodiscard]] ExtentEvidence extent(const ClassifiedPixels& pixels, const Actor& actor, const Pose& q);
 
  private:
   struct Pairs {

@@ -8,6 +8,12 @@
 
 namespace depthmocap {
 
+// What one frame says of the actor's size.
+struct ObservedSize {
+  double scale = 1;      // over that of the body in use
+  bool is_sure = false;  // of somebody whole and upright
+};
+
 // A pose that explains some evidence.
 struct Hypothesis {
   Pose q = Pose::Zero();  // world
@@ -19,11 +25,10 @@ struct Hypothesis {
   NormalEquations evidence;               // what the image says of q; see MapSolver::expandEvidence
   // Of a pose from one image alone: the body with the size that was found with it.
   std::optional<BodyAdapter> body;
-  Facing facing = Facing::Front;         // the side that the pose was found for, and
-  double cost = 0;                       // [energy] against the poses of other sides
-  std::optional<double> observed_scale;  // size of the actor over that of the body in use; set while it is being fitted
-  bool whole_in_view = false;            // the scale is of a whole person
-  std::optional<ShapeEvidence> shape;    // of the body; set while it is being fitted
+  Facing facing = Facing::Front;     // the side that the pose was found for, and
+  double cost = 0;                   // [energy] against the poses of other sides
+  std::optional<ObservedSize> size;  // of the body; set while it is being fitted, as is
+  std::optional<ShapeEvidence> shape;
 };
 
 }  // namespace depthmocap

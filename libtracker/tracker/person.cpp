@@ -99,10 +99,7 @@ std::optional<Hypothesis> Person::fit(const PersonRegion& region) {
 
 // What a pose that fits says of the body; before other poses are tried.
 void Person::observeBody(Hypothesis& pose) {
-  if (memory.body().fitsSize()) {
-    pose.observed_scale = fitter_.observedScale(evidence_, memory.actor(), pose.q);
-    pose.whole_in_view = fitter_.wholeInView();
-  }
+  if (memory.body().fitsSize()) pose.size = fitter_.observedSize(evidence_, memory.actor(), pose.q);
   if (memory.body().fitsShape() && fitter_.wholeInView()) pose.shape = fitter_.observedShape(pose, memory.body());
 }
 

@@ -12,6 +12,12 @@ namespace {
 // Rounds of solving and scaling: the first size of an unknown actor has converged after this many.
 constexpr int kFirstSizeRounds = 3;
 
+// Height of a pose over the stature, from which the height tells the stature: who sits seems smaller the less the
+// thighs are found to lie, and the other way round.
+constexpr double kUpright = 0.85;
+// Share of the size by the markers below which that by the height means another pose.
+constexpr double kNotLess = 0.92;
+
 // [m^2] Weight of the assumed stature against the spread of the markers, where not all of the actor is in view: the
 // markers of an upper body alone (spread 0.2 to 0.6) were wrong by 15 to 30 % at 0.8 m, people differ by 5 %.
 constexpr double kTypical_m2 = 1.0;
@@ -132,7 +138,7 @@ std::optional<Hypothesis> PoseFitter::fitFirst(const Evidence& evidence, const B
     found = &global_.find(legs_.complete(evidence.markers_world, actor), searchScale(actor), actor, *database_, search_,
                           prior_builder_, solver_);
     if (!found->found || !fit.body->fitsSize()) break;
-    fit.body->rescale(observedScale(evidence, actor, found->q));
+    fit.body->rescale(observedSize(evidence, actor, found->q).scale);
   }
   if (!found->found) return std::nullopt;
   fit.q = found->q;
@@ -159,16 +165,16 @@ double PoseFitter::energyOfImage(const MapSummary& fit) const {
   return fit.energy - config_.solve.lambda_smooth * fit.e_smooth - config_.solve.lambda_contact * fit.e_contact;
 }
 
-double PoseFitter::observedScale(const Evidence& evidence, const Actor& actor, const Pose& q) {
-  if (whole_in_view_) {
-    const double ratio = dense_.extentRatio(evidence.pixels, actor, q);
-    if (ratio > 0) return ratio;
-  }
+ObservedSize PoseFitter::observedSize(const Evidence& evidence, const Actor& actor, const Pose& q) {
   fk_.update(actor.skeleton, q);
   const SizeEstimate estimate = estimateSize(fk_, actor.markers, evidence.markers_world);
-  if (whole_in_view_) return estimate.valid ? estimate.scale : 1.0;
+  if (whole_in_view_) {
+    const ExtentEvidence extent = dense_.extent(evidence.pixels, actor, q);
+    const bool agrees = extent.ratio > kNotLess * estimate.scale;
+    if (extent.uprightness >= kUpright && agrees) return {extent.ratio, true};
+  }
   const double typical = config_.policy.assumed_stature_m / actor.stature_m();
-  return (estimate.spread_m2 * estimate.scale + kTypical_m2 * typical) / (estimate.spread_m2 + kTypical_m2);
+  return {(estimate.spread_m2 * estimate.scale + kTypical_m2 * typical) / (estimate.spread_m2 + kTypical_m2), false};
 }
 
 ShapeEvidence PoseFitter::observedShape(const Hypothesis& fit, const BodyAdapter& body) {

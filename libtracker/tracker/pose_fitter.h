@@ -50,9 +50,9 @@ class PoseFitter {
   [[nodiscard]] bool explainsMore(const Hypothesis& other, const Hypothesis& fit) const;
   // The energy without what the frames before say.
   [[nodiscard]] double energyOfImage(const MapSummary& fit) const;
-  // How much larger the actor is than this body: by the height of the whole person where it is in view, else by the
-  // markers and by the assumed stature.
-  double observedScale(const Evidence& evidence, const Actor& actor, const Pose& q);
+  // How much larger the actor is than this body: by the height of a whole person who is upright, else by the markers
+  // and by the assumed stature.
+  ObservedSize observedSize(const Evidence& evidence, const Actor& actor, const Pose& q);
   // What the image says of the body's shape, by the last fit, whose pose `fit` is.
   ShapeEvidence observedShape(const Hypothesis& fit, const BodyAdapter& body);
   // Nothing hides or cuts off a part of the actor.

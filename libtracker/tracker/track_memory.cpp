@@ -67,7 +67,7 @@ void TrackMemory::accept(const Hypothesis& pose, const Prediction& prediction,
     body_ = *pose.body;
     disputed_frames_ = puzzled_frames_ = 0;
   }
-  if (pose.observed_scale) body_.observeSize(*pose.observed_scale, pose.whole_in_view ? prediction.dt_s : 0.0);
+  if (pose.size) body_.observeSize(pose.size->scale, pose.size->is_sure ? prediction.dt_s : 0.0);
   if (pose.shape) body_.observeShape(*pose.shape, prediction.dt_s);
   if (pose.fresh) return feet_.reset();
   feet_.observe(actor().skeleton, pose.q, prediction.time_s, floor_world);
