@@ -70,6 +70,7 @@ std::string summaryText(const LiveFigures& f, const RunStats& stats, const SeenD
   if (f.recorded + f.not_recorded > 0)
     text += fmt::format("; recorded {}, not recorded {}", f.recorded, f.not_recorded);
   if (stats.tracked() == 0 && stats.frames() > 0) text += "; " + seen.explanation(turn_that_helps);
+  text += lyingText(seen);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -18,9 +19,20 @@ constexpr double kHardlyAny = 0.05;   // share of the frames that were tracked, 
 constexpr double kMany = 0.5;         // share of the frames from which on a turned camera need not be thought of
 constexpr double kMostlyEmpty = 0.02;  // share of the pixels that are measured, below which nothing can be seen
 
+// Clockwise quarter turns of the picture after which the trunk points up in it.
+std::size_t quarterTurnsOf(const JointPositions& p_camera) {
+  const Eigen::Vector3d trunk =
+      p_camera.col(static_cast<int>(Joint::Neck)) - p_camera.col(static_cast<int>(Joint::Pelvis));
+  if (std::abs(trunk.x()) > std::abs(trunk.y())) return trunk.x() < 0 ? 1 : 3;
+  return trunk.y() < 0 ? 0 : 2;
+}
+
 }  // namespace
 
 void SeenDepth::onFrame(const SessionFrame& frame) {
+  if (frame.tracked.state == TrackState::Tracking && !frame.tracked.floor_world) {
+    ++tracked_[quarterTurnsOf(frame.tracked.joints_camera)];
+  }
   const DepthImage& depth = frame.depth.depth;
   for (int y = kStep_px / 2; y < depth.height; y += kStep_px) {
     for (int x = kStep_px / 2; x < depth.width; x += kStep_px) {
@@ -64,11 +76,26 @@ std::string SeenDepth::explanation(const TurnSearch& turn_that_helps) const {
   return seen + ": nobody with the head in view, whichever way the pictures are turned";
 }
 
+std::optional<int> SeenDepth::turnIfUpright() const {
+  const std::uint64_t all = std::accumulate(tracked_.begin(), tracked_.end(), std::uint64_t{0});
+  for (std::size_t turns = 1; turns < tracked_.size(); ++turns) {
+    if (2 * tracked_[turns] > all) return 90 * static_cast<int>(turns);
+  }
+  return std::nullopt;
+}
+
+std::string lyingText(const SeenDepth& seen) {
+  const std::optional<int> turn_deg = seen.turnIfUpright();
+  if (!turn_deg) return {};
+  return fmt::format("; the person lies, and no floor is in view: if the camera is turned instead, add --turn {}",
+                     *turn_deg);
+}
+
 std::string trackedText(std::size_t tracked, std::size_t frames, const SeenDepth& seen,
                         const TurnSearch& turn_that_helps) {
   std::string text = fmt::format("tracked {} of {} frames", tracked, frames);
   const double share = static_cast<double>(tracked) / std::max(1.0, static_cast<double>(frames));
-  if (frames > 0 && share >= kMany) return text;
+  if (frames > 0 && share >= kMany) return text + lyingText(seen);
   if (frames > 0 && share >= kHardlyAny) {
     const std::optional<int> turn_deg = turn_that_helps();
     return turn_deg ? fmt::format("{}; the pictures seem turned, with --turn {} more are", text, *turn_deg) : text;

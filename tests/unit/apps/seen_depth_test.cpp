@@ -44,5 +44,28 @@ TEST(SeenDepth, IsOnlyNeededWhereHardlyAnythingWasTracked) {
   EXPECT_NE(trackedText(30, 100, nothing, [] { return 180; }).find("--turn 180"), std::string::npos);
 }
 
+// Frames of somebody whose head points this way in the picture.
+std::optional<int> turnOf(const Eigen::Vector3d& head, bool floor = false) {
+  DepthFrame frame;
+  frame.depth.reset(320, 240, 3.0F);
+  TrackedFrame tracked;
+  tracked.state = TrackState::Tracking;
+  tracked.joints_camera.setZero();
+  tracked.joints_camera.col(static_cast<int>(Joint::Neck)) = head;
+  if (floor) tracked.floor_world = Eigen::Vector4d(0, 1, 0, 0);
+  const TrackedFrame* somebody = &tracked;
+  SeenDepth seen;
+  for (int i = 0; i < 3; ++i) seen.onFrame({0, frame, tracked, 30.0, {&somebody, 1}});
+  return seen.turnIfUpright();
+}
+
+TEST(SeenDepth, KnowsTheTurnThatBringsTheHeadUp) {
+  EXPECT_EQ(turnOf({0.1, -0.5, 0.2}), std::nullopt);
+  EXPECT_EQ(turnOf({-0.5, 0.1, 0}), 90);
+  EXPECT_EQ(turnOf({0, 0.5, 0}), 180);
+  EXPECT_EQ(turnOf({0.5, 0, 0}), 270);
+  EXPECT_EQ(turnOf({0.5, 0, 0}, true), std::nullopt) << "the floor says that somebody lies";
+}
+
 }  // namespace
 }  // namespace depthmocap
