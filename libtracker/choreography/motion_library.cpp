@@ -18,6 +18,7 @@ std::string_view embeddedDrawingMotions();
 std::string_view embeddedSportsMotions();
 std::string_view embeddedEverydayMotions();
 std::string_view embeddedSittingMotions();
+std::string_view embeddedFloorMotions();
 std::string_view embeddedExerciseMotions();
 std::string_view embeddedStanceMotions();
 std::string_view embeddedDanceMotions();
@@ -38,6 +39,7 @@ constexpr std::array kFiles = {
     EmbeddedFile{"motions/sports.json", &embeddedSportsMotions},
     EmbeddedFile{"motions/everyday.json", &embeddedEverydayMotions},
     EmbeddedFile{"motions/sitting.json", &embeddedSittingMotions},
+    EmbeddedFile{"motions/floor.json", &embeddedFloorMotions},
     EmbeddedFile{"motions/exercise.json", &embeddedExerciseMotions},
     EmbeddedFile{"motions/stances.json", &embeddedStanceMotions},
     EmbeddedFile{"motions/dance.json", &embeddedDanceMotions},
