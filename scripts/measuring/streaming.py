@@ -5,7 +5,12 @@ import os
 import shutil
 import socket
 import threading
+import time
 from urllib.parse import urlparse
+
+
+PONG_S = 5.0  # a server that hears nothing from a page for a minute takes it for gone
+PONG = bytes([0x8A, 0x80, 0, 0, 0, 0])  # masked, without a payload: as a browser answers a ping
 
 
 class Client:
@@ -21,8 +26,15 @@ class Client:
 
     def read(self):
         buffer = bytearray(1 << 20)
-        while count := self.socket.recv_into(buffer):
-            self.received += count
+        answered = time.monotonic()
+        try:
+            while count := self.socket.recv_into(buffer):
+                self.received += count
+                if time.monotonic() - answered > PONG_S:
+                    answered = time.monotonic()
+                    self.socket.sendall(PONG)
+        except OSError:
+            pass  # it left
 
     def leave(self):
         self.socket.shutdown(socket.SHUT_RDWR)
