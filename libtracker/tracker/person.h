@@ -43,7 +43,7 @@ class Person {
   std::optional<Hypothesis> turnAround(const Hypothesis& tracked);
   std::optional<Hypothesis> startAnew(const Hypothesis& tracked);
   std::optional<Hypothesis> adopt(std::optional<Hypothesis> found);
-  [[nodiscard]] bool showsHeadAndNeck(const Hypothesis& pose);
+  [[nodiscard]] bool showsABody(const Hypothesis& pose);
   [[nodiscard]] bool enough(const PersonRegion& region) const;
   void report(const PersonRegion& region, const UprightWorld& world, const std::optional<Hypothesis>& pose);
 
