@@ -138,8 +138,8 @@ struct Segmenter::Impl {
   void recallPeople(const ExpectedPeople& expected);
   void recallHidden(const ExpectedActor& expected, Identity who);
   void explainKnown(const ExpectedPeople& expected);
-  void removeRoom(const RoomMap& map);
-  void findComponents(const DepthImage& depth, const RoomLook& look);
+  void removeRoom(const RoomMap& map, const ExpectedPeople& expected);
+  void findComponents(const DepthImage& depth, const RoomLook& look, const ExpectedPeople& expected);
   bool findCutOut(const DepthImage& depth, const RoomLook& look, const RoomMap*& map);
   void weighComponents();
   void findMissing(const ExpectedPeople& expected, std::size_t but);
@@ -190,7 +190,6 @@ void Segmenter::Impl::recallPeople(const ExpectedPeople& expected) {
       recallHidden(*expected[i], static_cast<Identity>(i + 1));
     }
   }
-  explainKnown(expected);
 }
 
 // What was somebody's and lies where their pose has no surface may be a thing that they touch.
@@ -216,7 +215,8 @@ void Segmenter::Impl::recallHidden(const ExpectedActor& expected, Identity who) 
   }
 }
 
-void Segmenter::Impl::removeRoom(const RoomMap& map) {
+void Segmenter::Impl::removeRoom(const RoomMap& map, const ExpectedPeople& expected) {
+  explainKnown(expected);
   evidence.read(cloud, map, explained);
   updateFloor();
   keepOffFloor(cloud, floor, config.floor_distance_m, off_floor);
@@ -248,14 +248,14 @@ bool Segmenter::Impl::findCutOut(const DepthImage& depth, const RoomLook& look, 
 }
 
 // The pieces that may be people's, and how much they look like people.
-void Segmenter::Impl::findComponents(const DepthImage& depth, const RoomLook& look) {
+void Segmenter::Impl::findComponents(const DepthImage& depth, const RoomLook& look, const ExpectedPeople& expected) {
   const RoomMap* map = nullptr;
   cut_out = findCutOut(depth, look, map);
   if (cut_out) {
     off_floor = keep;
   } else {
     keep.resize(cloud.points.size());
-    removeRoom(map != nullptr ? *map : look(depth));
+    removeRoom(map != nullptr ? *map : look(depth), expected);
   }
   const double image_scale = static_cast<double>(depth.data.size()) / kReferencePixels;
   const ChoiceContext context{cut_out, config.min_pixels * image_scale / (cloud.stride * cloud.stride),
@@ -361,7 +361,7 @@ void Segmenter::segment(const DepthImage& depth, const CameraModel& camera, cons
   Impl& s = *impl_;
   buildCoarseCloud(depth, camera, s.config.min_depth_m, s.config.max_depth_m, s.cloud);
   s.recallPeople(expected);
-  s.findComponents(depth, look);
+  s.findComponents(depth, look, expected);
 
   RefineLimits limits{
       s.config.min_depth_m, s.config.max_depth_m, s.config.cluster_gap_m, s.config.floor_distance_m, {}};

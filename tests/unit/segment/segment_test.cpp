@@ -34,6 +34,13 @@ Segmentation segmentOnce(const TestScene& scene) {
   return result;
 }
 
+// Intersection over union of what is found for the actor in one picture and the actor.
+double overlapOnce(const TestScene& scene) {
+  Image<int> objects;
+  scene.render(&objects);
+  return overlap(segmentOnce(scene).actor().mask, objects, kActor);
+}
+
 TEST(Segment, RemovedBackgroundKeepsEveryPixelOfThePerson) {
   TestScene scene;
   scene.addPerson(kActor, kFeet);
@@ -107,12 +114,7 @@ TEST(Segment, HandCutOffFromTheBodyBelongsToIt) {
   TestScene scene;
   scene.addPerson(kActor, kFeet);
   scene.addEllipsoid(kActor, kFeet + Eigen::Vector3d(0.3, -1.25, -0.55), {0.06, 0.08, 0.05});
-  Image<int> objects;
-  const DepthImage depth = scene.render(&objects);
-  Segmenter segmenter{SegmentConfig{}};
-  Segmentation result;
-  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
-  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.999);
+  EXPECT_GT(overlapOnce(scene), 0.999);
 }
 
 TEST(Segment, LegBehindTheOtherBelongsToTheActorInARoom) {
@@ -123,12 +125,7 @@ TEST(Segment, LegBehindTheOtherBelongsToTheActorInARoom) {
   scene.addEllipsoid(kActor, feet + Eigen::Vector3d(0, -1.20, 0), {0.14, 0.45, 0.18});
   scene.addEllipsoid(kActor, feet + Eigen::Vector3d(0, -0.45, -0.1), {0.09, 0.46, 0.08});
   scene.addEllipsoid(kActor, feet + Eigen::Vector3d(0.18, -0.42, 0.3), {0.09, 0.36, 0.07});
-  Image<int> objects;
-  const DepthImage depth = scene.render(&objects);
-  Segmenter segmenter{SegmentConfig{}};
-  Segmentation result;
-  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
-  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
+  EXPECT_GT(overlapOnce(scene), 0.95);
 }
 
 // Somebody of whom a table's edge hides the knees.
@@ -158,24 +155,14 @@ TEST(Segment, LegsThatGoOnBelowATableBelongToTheActor) {
 TEST(Segment, AThingBesideTheActorsLegsIsNoneOfThem) {
   TestScene scene = behindATable();
   scene.addEllipsoid(kOther, kFeet + Eigen::Vector3d(0.55, -0.25, 0.05), {0.10, 0.25, 0.10});
-  Image<int> objects;
-  const DepthImage depth = scene.render(&objects);
-  Segmenter segmenter{SegmentConfig{}};
-  Segmentation result;
-  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
-  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
+  EXPECT_GT(overlapOnce(scene), 0.95);
 }
 
 TEST(Segment, NearerOfTwoPeopleIsTheActor) {
   TestScene scene;
   scene.addPerson(kActor, kFeet);
   scene.addPerson(kOther, kFeet + Eigen::Vector3d(0.35, 0, 1.0));
-  Image<int> objects;
-  const DepthImage depth = scene.render(&objects);
-  Segmenter segmenter{SegmentConfig{}};
-  Segmentation result;
-  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
-  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.99);
+  EXPECT_GT(overlapOnce(scene), 0.99);
 }
 
 TEST(Segment, PredictionSelectsTheOtherPerson) {
@@ -231,12 +218,7 @@ TEST(Segment, CupboardsAndTablesAreNotTheActor) {
   scene.addPerson(kActor, kFeet + Eigen::Vector3d(0.4, 0, 0.6));
   scene.addPanel(kRoom, {-0.7, 0.2, 2.0}, 0.3, 0.88);  // a cupboard's door, nearer than the actor
   scene.addEllipsoid(kRoom, {1.3, kCameraHeight - 0.25, 2.2}, {0.3, 0.2, 0.3});  // a stool
-  Image<int> objects;
-  const DepthImage depth = scene.render(&objects);
-  Segmenter segmenter{SegmentConfig{}};
-  Segmentation result;
-  segmenter.segment(depth, scene.camera, mapOf(objects), {std::nullopt}, result);
-  EXPECT_GT(overlap(result.actor().mask, objects, kActor), 0.95);
+  EXPECT_GT(overlapOnce(scene), 0.95);
 }
 
 TEST(Segment, EmptyRoomHasNoActor) {
