@@ -1,10 +1,8 @@
-#include <arpa/inet.h>
-#include <sys/socket.h>
-
 #include "apps/ik/request.h"
 #include "apps/view/request_guard.h"
 #include "apps/view/view_command.h"
 #include "apps/view/web_server.h"
+#include "tests/fuzz/connection.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace depthmocap;
@@ -23,21 +21,7 @@ class Served {
     });
     server_.start();
   }
-  // One connection that sends this and no more; ends when the server has answered.
-  void give(std::string_view bytes) const {
-    const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(server_.port());
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (::connect(client, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0) {
-      (void)::send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-      ::shutdown(client, SHUT_WR);
-      char answer[4096];
-      while (::recv(client, answer, sizeof answer, 0) > 0) continue;
-    }
-    ::close(client);
-  }
+  void give(std::string_view bytes) const { (void)askedOnce(server_.port(), bytes); }
   [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(server_.port()); }
   void ik(std::string_view body) const {
     each([&] { (void)ik_.answer(std::string(body)); });
@@ -57,12 +41,7 @@ static void give(std::string_view bytes) {
   if (bytes.empty()) return;
   const std::string rest(bytes.substr(1));
   if (bytes[0] == 0) served.give(rest);
-  if (bytes[0] == 1) {
-    served.give("GET /stream HTTP/1.1\r\nHost: " + served.host() +
-                "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
-                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n" +
-                rest);
-  }
+  if (bytes[0] == 1) served.give(webSocketHandshake(served.host()) + rest);
   if (bytes[0] == 2) served.ik(rest);
   each([&] { (void)parseViewCommand(rest); });
   (void)queryValue(rest, "token");
