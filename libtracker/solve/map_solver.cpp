@@ -64,14 +64,15 @@ MapSolver::MapSolver(const MapConfig& config) : config_(config) {
 }
 
 // Levenberg-Marquardt with the damping of Nielsen 1999, on the diagonal of A (Marquardt 1963).
-MapSummary MapSolver::solve(const MapInput& input, Pose& q) {
+MapSummary MapSolver::solve(const MapInput& input, Pose& q, int most_steps) {
   DMC_CHECK(q.allFinite());
+  const int most = std::min(most_steps, config_.max_iterations);
   MapEnergy energy(input, config_);
   MapSummary summary;
   energy.expand(energy.at(q), equations_);
   double mu = kFirstDamping;
   double growth = 2.0;
-  while (!summary.converged && summary.iterations < config_.max_iterations) {
+  while (!summary.converged && summary.iterations < most) {
     if (equations_.g.cwiseAbs().maxCoeff() < kFlat) {
       summary.converged = true;
       break;

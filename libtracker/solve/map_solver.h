@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Cholesky>
+#include <limits>
 #include <vector>
 
 #include "depthmocap/marker_set.h"
@@ -26,7 +27,7 @@ struct MapConfig {
   double sigma_contact_m = 0.02;   // [m] (> 0) of its Lorentzian
   double velocity_share = 1.0;     // (0 .. 1) share of the last velocity that E_smooth expects to go on; 1: the paper
   double sigma_m = 0.05;           // [m] (> 0) of the Lorentzian
-  int max_iterations = 20;         // (>= 1) a guard: the mean is about 5
+  int max_iterations = 20;         // (>= 1) a guard: the mean of a solve that may converge is about 6
   double energy_tolerance = 1e-3;  // (> 0) stop where one step changes the energy by less
   std::vector<ConfigField> fields();
   void validate() const;  // throws Error naming field, value and rule
@@ -65,8 +66,8 @@ class MapSolver {
  public:
   explicit MapSolver(const MapConfig& config);  // throws as MapConfig::validate
 
-  // q: where to start, then the result; world frame, heading in (-pi, pi].
-  MapSummary solve(const MapInput& input, Pose& q);
+  // q: where to start, then the result; world frame, heading in (-pi, pi]. Ends after max_iterations or `most_steps`.
+  MapSummary solve(const MapInput& input, Pose& q, int most_steps = std::numeric_limits<int>::max());
   // What the frame says of its pose by itself: equation (5) at q without its smoothness.
   void expandEvidence(MapInput input, const Pose& q, NormalEquations& evidence) const;
   // The same minimum by Ceres' L-BFGS, from energies and gradients alone: slow, the reference of solve().

@@ -45,11 +45,12 @@ constexpr double kMisfit_m = 0.15;
 }  // namespace
 
 DenseRefinement::DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline,
-                                 const FreeSpaceConfig& free_space, int rounds)
+                                 const FreeSpaceConfig& free_space, int rounds, int steps)
     : matcher_(surface),
       outline_(outline),
       free_space_(free_space),
       rounds_(rounds),
+      steps_(steps),
       noise_(kDepthNoise, kDepthNoise.usual_m),
       outline_noise_(kOutlineNoise, kFirstOutline_m) {}
 
@@ -112,7 +113,7 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching
     for (std::size_t i = pairs_.measured; i < matches.size(); ++i) matches[i].weight *= outline_noise_.information();
     free_space_.match(placed_, whole_, matches);
     input.surface = &matches;
-    summary = solver.solve(input, q);
+    summary = solver.solve(input, q, steps_);
     iterations += summary.iterations;
   }
   summary.iterations = iterations;

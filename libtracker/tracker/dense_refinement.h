@@ -25,9 +25,9 @@ struct ExtentEvidence {
 // with the dense term, match again.
 class DenseRefinement {
  public:
-  // `rounds` of matching and solving (>= 0; 0 = off).
+  // `rounds` of matching and solving (>= 0; 0 = off), of at most so many `steps` of the solver each (>= 1).
   DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline, const FreeSpaceConfig& free_space,
-                  int rounds);
+                  int rounds, int steps);
 
   // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame. `whole`
   // false: the mask may lack the legs.
@@ -72,6 +72,7 @@ class DenseRefinement {
   OutlineMatcher outline_;
   FreeSpaceMatcher free_space_;
   int rounds_;
+  int steps_;
   Pairs pairs_, pairs_before_;  // of the last refine(), and of the one before it
   MatchNoise noise_;            // of measured points, and of the outline
   MatchNoise outline_noise_;

@@ -32,7 +32,8 @@ PoseFitter::PoseFitter(std::shared_ptr<const PoseDatabase> database, const Actor
       prior_builder_(config.prior),
       solver_(config.solve),
       global_(config.prior.neighbours.back(), config.policy.start_poses),
-      dense_(config.surface, config.outline, config.free_space, config.policy.dense_rounds) {}
+      dense_(config.surface, config.outline, config.free_space, config.policy.dense_rounds, config.policy.dense_steps) {
+}
 
 void PoseFitter::look(const DepthImage& depth, const PersonRegion& actor, const CameraModel& camera,
                       const Eigen::Matrix3d& R_world_camera) {

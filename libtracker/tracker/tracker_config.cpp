@@ -48,6 +48,7 @@ std::vector<ConfigField> TrackPolicy::fields() {
       {"absent_s", &absent_s, "s", atLeast(0), "A lost actor is waited for this long"},
       {"start_poses", &start_poses, "poses", atLeast(1), "Database poses that a global search solves from"},
       {"dense_rounds", &dense_rounds, "", atLeast(0), "Rounds of matching depth with the surface; 0 = markers only"},
+      {"dense_steps", &dense_steps, "", atLeast(1), "Steps of the solver in a round"},
       {"expect_sides", &expect_sides, "", kAnyNumber, "The pose before tells left from right"},
       {"hold_feet", &hold_feet, "", kAnyNumber, "Feet that stand are held where they are"},
       {"assumed_stature_m", &assumed_stature_m, "m", fromTo(1.0, 2.2), "Of an uncalibrated actor at the start"},
