@@ -170,8 +170,9 @@ class NameReader {
     throw Error(fmt::format("the bone map's {} is '{}', which the file does not have", key, name), where_);
   }
 
+  // False for no bone (-1): a file may have one arm.
   [[nodiscard]] bool isBelow(int bone, int ancestor) const {
-    for (int b = parentOf(bone); b >= 0; b = parentOf(b)) {
+    for (int b = bone < 0 ? -1 : parentOf(bone); b >= 0; b = parentOf(b)) {
       if (b == ancestor) return true;
     }
     return false;

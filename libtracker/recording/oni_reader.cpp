@@ -47,8 +47,8 @@ RecordingInfo infoOf(const OniDepth& depth, const std::filesystem::path& file) {
   camera.height = depth.height;
   camera.fx = focalLength(camera.width, camera.width, depth.fov_x);
   camera.fy = focalLength(camera.height, camera.width, depth.fov_y);
-  camera.cx = (camera.width - 1) / 2.0;
-  camera.cy = (camera.height - 1) / 2.0;
+  camera.cx = 0.5 * camera.width - 0.5;  // not yet checked: a file's width may be the least of all integers
+  camera.cy = 0.5 * camera.height - 0.5;
   if (depth.fps > 0) info.fps = depth.fps;
   info.depth_unit_m = depth.depth_unit_m;
   info.camera_name = "openni2";

@@ -161,6 +161,16 @@ TEST(Retarget, ACartwheelKeepsItsTiltWithinHalfATurn) {
   for (const double residual : result.residuals.max_m) EXPECT_LT(residual, 0.003);
 }
 
+TEST(Retarget, OneArmAndNoHeadIsAnError) {
+  SourceMotion motion = sourceOf({Pose::Zero()}, makeSkeleton(performer()));
+  rename(motion, {{"RightShoulder", "a"}, {"RightArm", "b"}, {"RightForeArm", "c"}, {"RightHand", "d"}, {"Head", "e"}});
+  const NamedBones named = namedBones(motion.bones, {}, "test");
+  EXPECT_GE(named.left.humerus, 0);
+  EXPECT_EQ(named.right.humerus, -1);
+  EXPECT_EQ(named.head, -1) << "no bone carries two arms";
+  EXPECT_THROW(retargeted(motion, 1.0), Error);
+}
+
 TEST(Retarget, SkeletonsWithoutABodyAreErrors) {
   const Skeleton skeleton = makeSkeleton(performer());
   for (const char* missing : {"LeftForeArm", "RightUpLeg"}) {
