@@ -45,12 +45,11 @@ constexpr double kMisfit_m = 0.15;
 }  // namespace
 
 DenseRefinement::DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline,
-                                 const FreeSpaceConfig& free_space, int rounds, int steps)
+                                 const FreeSpaceConfig& free_space, int rounds)
     : matcher_(surface),
       outline_(outline),
       free_space_(free_space),
       rounds_(rounds),
-      steps_(steps),
       noise_(kDepthNoise, kDepthNoise.usual_m),
       outline_noise_(kOutlineNoise, kFirstOutline_m) {}
 
@@ -94,7 +93,7 @@ ExtentEvidence DenseRefinement::extent(const ClassifiedPixels& pixels, const Act
 }
 
 void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor,
-                             MapInput input, MapSolver& solver, Pose& q, MapSummary& summary) {
+                             MapInput input, MapSolver& solver, int steps, Pose& q, MapSummary& summary) {
   int iterations = summary.iterations;
   std::swap(pairs_, pairs_before_);
   SurfaceMatches& matches = pairs_.matches;
@@ -113,7 +112,7 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching
     for (std::size_t i = pairs_.measured; i < matches.size(); ++i) matches[i].weight *= outline_noise_.information();
     free_space_.match(placed_, whole_, matches);
     input.surface = &matches;
-    summary = solver.solve(input, q, steps_);
+    summary = solver.solve(input, q, steps);
     iterations += summary.iterations;
   }
   summary.iterations = iterations;

@@ -25,17 +25,18 @@ struct ExtentEvidence {
 // with the dense term, match again.
 class DenseRefinement {
  public:
-  // `rounds` of matching and solving (>= 0; 0 = off), of at most so many `steps` of the solver each (>= 1).
+  // `rounds` of matching and solving (>= 0; 0 = off).
   DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline, const FreeSpaceConfig& free_space,
-                  int rounds, int steps);
+                  int rounds);
 
   // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame. `whole`
   // false: the mask may lack the legs.
   void look(const DepthImage& depth, const MaskImage& mask, bool whole, const CameraModel& camera,
             const Eigen::Matrix3d& R_world_camera);
   // q: a solved pose, then the refined one. `input` without its surface; `summary` is replaced where a round was done.
+  // `steps`: at most so many of the solver in a round.
   void refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor, MapInput input,
-              MapSolver& solver, Pose& q, MapSummary& summary);
+              MapSolver& solver, int steps, Pose& q, MapSummary& summary);
   // The matches are again those of the refine() before the last one; not twice in a row.
   void takeBack();
   // [0, 2] What a pose leaves unexplained of the samples of the last refine(), and how much of its body hangs in free
@@ -72,7 +73,6 @@ class DenseRefinement {
   OutlineMatcher outline_;
   FreeSpaceMatcher free_space_;
   int rounds_;
-  int steps_;
   Pairs pairs_, pairs_before_;  // of the last refine(), and of the one before it
   MatchNoise noise_;            // of measured points, and of the outline
   MatchNoise outline_noise_;
