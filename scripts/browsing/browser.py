@@ -1,6 +1,7 @@
 """Chromium without a screen, spoken to by its debugging protocol, and the program whose page it shows."""
 import base64
 import json
+import os
 import subprocess
 import sys
 import time
@@ -111,9 +112,10 @@ def wait_for(condition, what, seconds=90):
     sys.exit(f"check-page: {what} did not come within {seconds} s")
 
 
-def start_program(program, *arguments, folder=None):
-    """The program, in a folder of its own, and the address of its page."""
-    process = subprocess.Popen([program, *arguments], stderr=subprocess.PIPE, text=True, cwd=folder)
+def start_program(program, *arguments, folder=None, environment=None):
+    """The program, in a folder of its own, and the address of its page. `environment`: beside this one's."""
+    process = subprocess.Popen([program, *arguments], stderr=subprocess.PIPE, text=True, cwd=folder,
+                               env={**os.environ, **(environment or {})})
     for line in process.stderr:
         if line.startswith(("view: ", "serving ")):
             return process, line.split()[1]

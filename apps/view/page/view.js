@@ -7,6 +7,7 @@ const SLOW_MS = 33;
 const FIGURES_MS = 150;
 const LOST_MS = 2000;   // before the page says what to do about it
 const LOST_TEXT = "Nobody is tracked. Stand 2 to 4 m before the camera, the whole body in view.";
+const AWAY = "camera away";
 const COMMANDS = ["record", "calibrate", "reset", "lock"];
 
 let hello = null;
@@ -193,9 +194,15 @@ function onEvent({ what, text }) {
   if (calibrates || what === "calibrated" || what === "failure") byId("calibrating").hidden = !calibrates;
   if (what === "calibrated") notice(text, "done", 6);
   if (what === "failure") notice(text, "error", 8);
-  if (what === "camera_lost") notice(text, "error");
+  if (what === "camera_lost") onCameraLost(text);
   if (what === "camera_back") notice(text, "done", 4);
   if (what === "record") library.load();
+}
+
+function onCameraLost(text) {
+  newest = null;
+  setState(AWAY, "lost");
+  notice(text, "error");
 }
 
 function onText(message) {
@@ -273,7 +280,7 @@ const connection = new Connection({
   },
   onOpen,
   onLost,
-  onSilent: () => setState("no pictures", "coasting"),
+  onSilent: () => { if (byId("state").textContent !== AWAY) setState("no pictures", "coasting"); },
 });
 
 byId("try-now").onclick = () => connection.tryNow();
