@@ -17,6 +17,7 @@ COLORS = [(240, 180, 60), (80, 180, 240), (160, 220, 90), (230, 110, 150), (180,
 
 def show_camera(camera):
     parts = [rr.AnnotationInfo(id=part, label=name) for part, name in enumerate(depthmocap.PARTS)]
+    parts[0] = rr.AnnotationInfo(id=0, label=depthmocap.PARTS[0], color=(0, 0, 0, 0))  # the room is not painted over
     rr.log("world", rr.ViewCoordinates.RIGHT_HAND_Y_UP, static=True)
     rr.log("world/camera", rr.AnnotationContext(parts), static=True)
     rr.log("world/camera/image", rr.Pinhole(resolution=[camera.width, camera.height], focal_length=[camera.fx, camera.fy],
@@ -25,9 +26,10 @@ def show_camera(camera):
 
 
 def show_pictures(frame):
-    """Depth, which the viewer shows as points, too, and the body part of each pixel."""
+    """Depth, which the viewer shows as points, too, small and grey so that the skeleton is seen among them; and the body
+    part of each pixel."""
     rr.log("world/camera", rr.Transform3D(mat3x3=frame.world_from_camera))
-    rr.log("world/camera/image/depth", rr.DepthImage(frame.depth, meter=1.0))
+    rr.log("world/camera/image/depth", rr.DepthImage(frame.depth, meter=1.0, colormap="grayscale", point_fill_ratio=0.2))
     rr.log("world/camera/image/parts", rr.SegmentationImage(frame.labels, opacity=0.5))
 
 
