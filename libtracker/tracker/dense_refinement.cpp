@@ -36,20 +36,17 @@ constexpr MatchNoise::Range kDepthNoise{0.010, 0.5, 6.0, 2.0};
 constexpr MatchNoise::Range kOutlineNoise{0.010, 0.01, 1.5, 4.0};
 constexpr double kFirstOutline_m = 0.02;
 
-// Without the parts' help a surface comes nearer by smaller steps.
-constexpr int kRoundsByDistance = 2;
-
 // [m] A point as far off its surface is explained by nothing.
 constexpr double kMisfit_m = 0.15;
 
 }  // namespace
 
 DenseRefinement::DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline,
-                                 const FreeSpaceConfig& free_space, int rounds)
+                                 const FreeSpaceConfig& free_space, bool on)
     : matcher_(surface),
       outline_(outline),
       free_space_(free_space),
-      rounds_(rounds),
+      on_(on),
       noise_(kDepthNoise, kDepthNoise.usual_m),
       outline_noise_(kOutlineNoise, kFirstOutline_m) {}
 
@@ -63,7 +60,7 @@ void DenseRefinement::look(const DepthImage& depth, const MaskImage& mask, bool 
   whole_ = whole;
   camera_ = camera;
   R_world_camera_ = R_world_camera;
-  if (rounds_ == 0) return;
+  if (!on_) return;
   outline_.observe(depth, mask, camera, R_world_camera);
   free_space_.observe(depth, mask, camera, R_world_camera);
 }
@@ -93,15 +90,14 @@ ExtentEvidence DenseRefinement::extent(const ClassifiedPixels& pixels, const Act
 }
 
 void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor,
-                             MapInput input, MapSolver& solver, int steps, Pose& q, MapSummary& summary) {
+                             MapInput input, MapSolver& solver, DenseRounds rounds, Pose& q, MapSummary& summary) {
   int iterations = summary.iterations;
   std::swap(pairs_, pairs_before_);
   SurfaceMatches& matches = pairs_.matches;
   matches.clear();
   pairs_.measured = pairs_.touched = 0;
   matcher_.observe(samples, matching);
-  const int rounds = matching == Matching::ByParts ? rounds_ : kRoundsByDistance * rounds_;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; on_ && round < rounds.count; ++round) {
     fk_.update(actor.skeleton, q);
     placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
     matcher_.match(placed_, matches);
@@ -112,7 +108,7 @@ void DenseRefinement::refine(const std::vector<SurfaceSample>& samples, Matching
     for (std::size_t i = pairs_.measured; i < matches.size(); ++i) matches[i].weight *= outline_noise_.information();
     free_space_.match(placed_, whole_, matches);
     input.surface = &matches;
-    summary = solver.solve(input, q, steps);
+    summary = solver.solve(input, q, rounds.steps);
     iterations += summary.iterations;
   }
   summary.iterations = iterations;
@@ -123,7 +119,7 @@ void DenseRefinement::takeBack() {
 }
 
 std::optional<double> DenseRefinement::misfit(const Actor& actor, const Pose& q) {
-  if (rounds_ == 0) return std::nullopt;
+  if (!on_) return std::nullopt;
   fk_.update(actor.skeleton, q);
   placed_.place(*actor.surface, actor.stature_m() / actor.surface->stature_m, fk_);
   return matcher_.unexplained(placed_, kMisfit_m) + free_space_.hanging(placed_, whole_, kMisfit_m);

@@ -21,22 +21,27 @@ struct ExtentEvidence {
   double uprightness = 0;  // the model's extent over its stature; 0 if too little is in view
 };
 
+// How often the surface is matched and (5) is solved.
+struct DenseRounds {
+  int count = 0;  // (>= 0) of matching and solving
+  int steps = 1;  // (>= 1) at most so many of the solver in each
+};
+
 // Beyond the paper: brings the body's surface to the measured points, as iterated closest points do: match, solve (5)
 // with the dense term, match again.
 class DenseRefinement {
  public:
-  // `rounds` of matching and solving (>= 0; 0 = off).
+  // `on` false: nothing is matched.
   DenseRefinement(const SurfaceMatchConfig& surface, const OutlineConfig& outline, const FreeSpaceConfig& free_space,
-                  int rounds);
+                  bool on);
 
   // The frame, for what is free of the actor in it. Depth and mask must outlive the calls for this frame. `whole`
   // false: the mask may lack the legs.
   void look(const DepthImage& depth, const MaskImage& mask, bool whole, const CameraModel& camera,
             const Eigen::Matrix3d& R_world_camera);
   // q: a solved pose, then the refined one. `input` without its surface; `summary` is replaced where a round was done.
-  // `steps`: at most so many of the solver in a round.
   void refine(const std::vector<SurfaceSample>& samples, Matching matching, const Actor& actor, MapInput input,
-              MapSolver& solver, int steps, Pose& q, MapSummary& summary);
+              MapSolver& solver, DenseRounds rounds, Pose& q, MapSummary& summary);
   // The matches are again those of the refine() before the last one; not twice in a row.
   void takeBack();
   // [0, 2] What a pose leaves unexplained of the samples of the last refine(), and how much of its body hangs in free
@@ -49,7 +54,7 @@ class DenseRefinement {
   void forget();
 
   // The matches of the last refine(); null: it made none.
-  [[nodiscard]] const SurfaceMatches* matches() const { return rounds_ > 0 ? &pairs_.matches : nullptr; }
+  [[nodiscard]] const SurfaceMatches* matches() const { return on_ ? &pairs_.matches : nullptr; }
 
   // Those of measured points, and of lines of sight past the body.
   [[nodiscard]] std::span<const SurfaceMatch> measured() const {
@@ -72,7 +77,7 @@ class DenseRefinement {
   SurfaceMatcher matcher_;
   OutlineMatcher outline_;
   FreeSpaceMatcher free_space_;
-  int rounds_;
+  bool on_;
   Pairs pairs_, pairs_before_;  // of the last refine(), and of the one before it
   MatchNoise noise_;            // of measured points, and of the outline
   MatchNoise outline_noise_;

@@ -27,7 +27,7 @@ struct TrackPolicy {
   double absent_s = 2.5;         // [s] (>= coast_s) the lost actor is waited for, then whoever is there is tracked
   int start_poses = 6;           // (>= 1) database poses a global search solves from
   int dense_rounds = 6;          // (>= 0) of matching depth with the body's surface; 0 = markers only, the paper
-  int dense_steps = 1;           // (>= 1) of the solver in a round, where a pose follows the one before
+  int dense_steps = 2;           // (>= 1) of the solver in a round, where a pose follows the one before
   bool expect_sides = true;      // the pose before tells left from right in the classifier's answer; false: the paper
   bool hold_feet = true;         // feet that stand are held where they are; false: the paper
   double assumed_stature_m = 1.72;  // [m] of an uncalibrated actor at the start
