@@ -66,13 +66,12 @@ MapSolver::MapSolver(const MapConfig& config) : config_(config) {
 // Levenberg-Marquardt with the damping of Nielsen 1999, on the diagonal of A (Marquardt 1963).
 MapSummary MapSolver::solve(const MapInput& input, Pose& q, int most_steps) {
   DMC_CHECK(q.allFinite());
-  const int most = std::min(most_steps, config_.max_iterations);
   MapEnergy energy(input, config_);
   MapSummary summary;
   energy.expand(energy.at(q), equations_);
   double mu = kFirstDamping;
   double growth = 2.0;
-  while (!summary.converged && summary.iterations < most) {
+  while (!summary.converged && summary.iterations < config_.max_iterations) {
     if (equations_.g.cwiseAbs().maxCoeff() < kFlat) {
       summary.converged = true;
       break;
@@ -92,7 +91,7 @@ MapSummary MapSolver::solve(const MapInput& input, Pose& q, int most_steps) {
     }
     q = q_new;
     summary.converged = gain < config_.energy_tolerance;
-    if (summary.converged) break;
+    if (summary.converged || --most_steps == 0) break;
     // What the model promised: its decrease for the damped step.
     const double promised = step.dot(damping.cwiseProduct(step)) - step.dot(equations_.g);
     mu *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain / promised - 1.0, 3));

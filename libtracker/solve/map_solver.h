@@ -66,7 +66,8 @@ class MapSolver {
  public:
   explicit MapSolver(const MapConfig& config);  // throws as MapConfig::validate
 
-  // q: where to start, then the result; world frame, heading in (-pi, pi]. Ends after max_iterations or `most_steps`.
+  // q: where to start, then the result; world frame, heading in (-pi, pi]. Ends after max_iterations, or `most_steps`
+  // that lower the energy.
   MapSummary solve(const MapInput& input, Pose& q, int most_steps = std::numeric_limits<int>::max());
   // What the frame says of its pose by itself: equation (5) at q without its smoothness.
   void expandEvidence(MapInput input, const Pose& q, NormalEquations& evidence) const;

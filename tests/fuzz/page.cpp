@@ -1,10 +1,12 @@
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 #include "apps/view/recording_desk.h"
 #include "tests/fuzz/connection.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/made_recording.h"
+#include "tests/support/page_files.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace depthmocap;
@@ -29,17 +31,13 @@ class FakeTracker : public RecordingTracker {
 class Page {
  public:
   Page() {
+    setenv("TMPDIR", folder_.path().c_str(), 1);  // exports lie beside the secret, so that "../" would reach it
     setenv("DEPTHMOCAP_SHARE", folder_.path().c_str(), 1);
     makeRecording(folder_ / "mine/take", smallCamera(), 2);
     writeBytes(folder_ / "mine/broken/recording.json", "{");
     writeBytes(folder_ / "secret.bvh", std::string(kSecret));
     writeBytes(folder_ / "mine/secret.bvh", std::string(kSecret));
-    for (const auto& file : std::filesystem::directory_iterator(DEPTHMOCAP_SOURCE_DIR "/apps/view/page")) {
-      writeBytes(folder_.path() / "page" / file.path().filename(), "x");
-    }
-    for (const char* file : {"three.min.js", "OrbitControls.js", "GLTFLoader.js"}) {
-      writeBytes(folder_.path() / "page" / file, "x");
-    }
+    makePageFiles(folder_ / "page");
     page_ = std::make_unique<LivePage>(WebServerConfig{.port = 0}, folder_ / "page", LivePageInfo{"idle", "none", {}});
     desk_ = std::make_unique<RecordingDesk>(*page_, RecordingShelf(folder_ / "mine"), tracker_, 1);
     page_->start();

@@ -9,6 +9,7 @@
 #include "apps/track/page_tracking.h"
 #include "apps/track/start_page.h"
 #include "libtracker/core/json_file.h"
+#include "tests/support/page_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace depthmocap {
@@ -77,13 +78,7 @@ TEST(OpenApi, HasEveryFieldOfAnAnswer) {
 
 TEST(OpenApi, HasEveryEndpoint) {
   const TemporaryFolder share;
-  fs::create_directories(share / "view");
-  for (const fs::directory_entry& file : fs::directory_iterator(fs::path(DEPTHMOCAP_SOURCE_DIR) / "apps/view/page")) {
-    writeBytes(share.path() / "view" / file.path().filename(), "x");
-  }
-  for (const char* file : {"three.min.js", "OrbitControls.js", "GLTFLoader.js"}) {
-    writeBytes(share.path() / "view" / file, "x");
-  }
+  makePageFiles(share / "view");
   setenv("DEPTHMOCAP_SHARE", share.path().c_str(), 1);
   PageTracking tracking{ReplayOptions{}};
   StartPage start({.port = 0}, {}, StartPage::Cameras::Listed, tracking);

@@ -35,6 +35,21 @@ TEST(MapSolver, RecoversThePoseFromPerfectMarkers) {
   }
 }
 
+TEST(MapSolver, EndsAfterTheStepsThatItIsGiven) {
+  const MovingBody scene;
+  MapSolver solver{MapConfig{}};
+  const MarkerSet markers = scene.markers(MovingBody::motion(2, 1.0));
+  Pose q = Pose::Zero();
+  double energy = std::numeric_limits<double>::max();
+  for (int i = 0; i < 3; ++i) {
+    const MapSummary summary = solver.solve({scene.skeleton, scene.model, markers}, q, 1);
+    EXPECT_FALSE(summary.converged);
+    EXPECT_LT(summary.energy, energy) << "a step that raises the energy is tried again, shorter";
+    energy = summary.energy;
+  }
+  EXPECT_LT(solver.solve({scene.skeleton, scene.model, markers}, q).energy, energy);
+}
+
 TEST(MapSolver, MeetsTheReferenceSolver) {
   const MovingBody scene;
   MapConfig config;

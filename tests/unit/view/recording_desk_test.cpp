@@ -10,6 +10,7 @@
 #include "depthmocap/error.h"
 #include "tests/support/connection.h"
 #include "tests/support/made_recording.h"
+#include "tests/support/page_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace depthmocap {
@@ -48,13 +49,7 @@ class Desk : public testing::Test {
     setenv("DEPTHMOCAP_SHARE", folder_.path().c_str(), 1);
     makeRecording(folder_ / "mine/take", smallCamera(), 4);
     makeRecording(folder_ / "mine/other", smallCamera(), 4);
-    fs::create_directories(folder_ / "page");
-    for (const fs::directory_entry& file : fs::directory_iterator(fs::path(DEPTHMOCAP_SOURCE_DIR) / "apps/view/page")) {
-      writeBytes(folder_.path() / "page" / file.path().filename(), "x");
-    }
-    for (const char* file : {"three.min.js", "OrbitControls.js", "GLTFLoader.js"}) {
-      writeBytes(folder_.path() / "page" / file, "x");
-    }
+    makePageFiles(folder_ / "page");
     page_ = std::make_unique<LivePage>(WebServerConfig{.port = 0, .token = "secret"}, folder_ / "page",
                                        LivePageInfo{"idle", "no camera", {}});
     desk_ = std::make_unique<RecordingDesk>(*page_, RecordingShelf(folder_ / "mine"), tracker_, 2);
